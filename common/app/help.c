@@ -1,11 +1,15 @@
-/* A table of options as --help, as a man page, and as completions for three shells. */
+/* A table of options as --help; as a man page and as completions for three shells it fills
+ * help.man, help.bash and so on. */
 #include "app/help.h"
 
+#include "base/output_text.h"
+#include "base/template.h"
 #include "base/text.h"
 #include "base/version.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define EXIT_STATUS "0, 1 if something failed, 2 if the command line is wrong."
@@ -122,161 +126,86 @@ void help_print(const Usage *usage, const Parameter *table)
     printf("\nExit status: " EXIT_STATUS "\n%s%s", last[0] ? "\n" : "", last);
 }
 
-/* A hyphen is typeset as a dash unless it is escaped, a line that begins with a period or a quote
- * is a request, and \: allows a break. (groff_man(7)) */
-static void print_roff(const char *text)
+/* A text escaped for roff: a hyphen is typeset as a dash unless it is escaped, a line that begins
+ * with a period or a quote is a request, and \: allows a break (groff_man(7)). */
+static void set_roff(TemplateValues *values, const char *name, const char *text)
 {
+    OutputText out;
+    output_text_open(&out);
     for (bool begin = true; *text; begin = *text++ == '\n') {
         if (begin && (*text == '.' || *text == '\''))
-            printf("\\&");
-        printf("%s%c%s", *text == '-' || *text == '\\' ? "\\" : "", *text == '\\' ? 'e' : *text,
-               *text == '|' ? "\\:" : "");
+            fputs("\\&", out.file);
+        fprintf(out.file, "%s%c%s", *text == '-' || *text == '\\' ? "\\" : "",
+                *text == '\\' ? 'e' : *text, *text == '|' ? "\\:" : "");
     }
+    char *escaped = output_text_close(&out);
+    template_set(values, name, "%s", escaped);
+    free(escaped);
 }
 
-/* Variables for which there is an option too only where it is in the table. */
-static void print_environment(const Parameter *table)
+/* The first clause of what the option is, for single quotes of a shell; zsh needs brackets escaped.
+ */
+static void set_clause(TemplateValues *values, const char *name, const char *help,
+                       const char *special)
 {
-    static const struct {
-        const char *name, *option, *help;
-    } variables[] = {
-        {"LIGHTING_BACKEND", "backend", "What draws, unless --backend says so."},
-        {"LIGHTING_SHADERS", "shaders", "A folder with shader files, after that of --shaders."},
-        {"LIGHTING_FONT", NULL, "The TrueType file for labels in pictures."},
-        {"LP_NUM_THREADS", NULL, "The threads of Mesa's llvmpipe."},
-        {"NO_COLOR", NULL, "If set and not empty, messages on a terminal have no colour."},
-        {"SOURCE_DATE_EPOCH", NULL,
-         "The date in EXR and TIFF files, in seconds since 1970; 0 if it is not set."},
-        {"XDG_CACHE_HOME", NULL,
-         "Where lighting/ keeps what takes long to compute; ~/.cache if it is not set."},
-    };
-    printf(".SH ENVIRONMENT\n");
-    for (size_t i = 0; i < sizeof variables / sizeof variables[0]; i++) {
-        const Parameter *option = table;
-        while (option->name && variables[i].option && strcmp(option->name, variables[i].option))
-            option++;
-        if (!option->name)
-            continue;
-        printf(".TP\n.B %s\n", variables[i].name);
-        print_roff(variables[i].help);
-        printf("\n");
-    }
+    OutputText out;
+    output_text_open(&out);
+    for (const char *p = help, *end = help + strcspn(help, ";:("); p < end; p++)
+        fprintf(out.file, "%s%c", *p == '\'' ? "'\\'" : strchr(special, *p) ? "\\" : "", *p);
+    char *clause = output_text_close(&out);
+    template_set(values, name, "%s", clause);
+    free(clause);
 }
 
-static void print_man(const Usage *usage, const Parameter *table)
+static void set_flag(TemplateValues *values, const char *name, bool on)
 {
-    char text[DETAILS_SIZE];
-    const Parameter *first = table;
-    printf(".TH %s 1 \"\" \"lighting %s\" \"User Commands\"\n.ad l\n.SH NAME\n%s \\- ", usage->name,
-           VERSION, usage->name);
-    print_roff(usage->summary);
-    printf("\n.SH SYNOPSIS\n.B %s\n[\\fIoptions\\fR] %s\n%s.SH OPTIONS\n", usage->name,
-           operands(usage),
-           usage->gallery || usage->study ? "" : ".SH DESCRIPTION\n" HEADLESS "\n");
-    for (; table->name; table++) {
-        printf(table->letter ? ".TP\n\\fB\\-%c\\fR, \\fB\\-\\-" : ".TP\n\\fB\\-\\-", table->letter);
-        print_roff(table->name);
-        const char *value = placeholder(table, text);
-        const bool optional = value[0] && table->kind == PARAMETER_FLAG;
-        printf("\\fR%s\\fI", optional ? "[=" : value[0] ? " " : "");
-        print_roff(value);
-        printf("\\fR%s\n", optional ? "]" : "");
-        print_roff(meaning(table, text));
-        printf("\n");
-    }
-    print_environment(first);
-    const char *last = details(usage, text);
-    printf(".SH EXIT STATUS\n.TP\n0\nEverything was done.\n"
-           ".TP\n%d\nSomething failed: a file, the driver, the machine.\n"
-           ".TP\n%d\nThe command line is wrong; nothing was written.\n%s",
-           EXIT_FAILED, EXIT_USAGE, last[0] ? ".SH NOTES\n.nf\n" : "");
-    print_roff(last);
+    template_set(values, name, "%s", on ? "yes" : "");
 }
 
-/* The first clause of what the option is, in single quotes; zsh needs brackets escaped. */
-static void print_clause(const Parameter *option, const char *special)
-{
-    const char *end = option->help + strcspn(option->help, ";:(");
-    for (const char *p = option->help; p < end; p++)
-        printf("%s%c", *p == '\'' ? "'\\'" : strchr(special, *p) ? "\\" : "", *p);
-}
-
-/* Bash splits --NAME=VALUE into three words. */
-static void print_bash(const Usage *usage, const Parameter *table)
+static void set_option(TemplateValues *form, const Parameter *option)
 {
     char text[TEXT_SIZE];
-    printf("_%s()\n{\n"
-           "    local word=${COMP_WORDS[COMP_CWORD]} option=${COMP_WORDS[COMP_CWORD - 1]} words\n"
-           "    [[ $word == = ]] && word=\n"
-           "    [[ $option == = ]] && option=${COMP_WORDS[COMP_CWORD - 2]}\n"
-           "    case $option in\n",
-           usage->name);
-    for (const Parameter *option = table; option->name; option++) {
-        const char letter[] = {option->letter, '\0'};
-        if (parameter_choices(option) && option->kind != PARAMETER_FLAG)
-            printf("    --%s%s%s) words='%s' ;;\n", option->name, letter[0] ? " | -" : "", letter,
-                   join_choices(option, " ", text));
-    }
-    printf("    *)\n        [[ $word == -* ]] || return\n        words='");
-    for (; table->name; table++)
-        printf("--%s ", table->name);
-    printf("'\n        ;;\n    esac\n"
-           "    COMPREPLY=($(compgen -W \"$words\" -- \"$word\"))\n}\n"
-           "complete -o default -F _%s %s\n",
-           usage->name, usage->name);
-}
-
-/* (zshcompsys(1), _arguments) */
-static void print_zsh(const Usage *usage, const Parameter *table)
-{
-    char text[TEXT_SIZE];
-    printf("#compdef %s\n_arguments -s -S%s", usage->name,
-           operands(usage)[0] ? " '*:file:_files'" : "");
-    for (; table->name; table++) {
-        const bool flag = table->kind == PARAMETER_FLAG;
-        const char *choices = join_choices(table, " ", text);
-        if (table->letter)
-            printf(" \\\n    '(-%c --%s)'{-%c%s,--%s%s}'[", table->letter, table->name,
-                   table->letter, flag ? "" : "+", table->name, flag ? "" : "=");
-        else
-            printf(" \\\n    '--%s%s[", table->name, !flag ? "=" : choices[0] ? "=-" : "");
-        print_clause(table, "[]\\");
-        printf("]");
-        if (!flag || choices[0])
-            printf(choices[0] ? "%s%s:(%s)" : "%s%s:%s", flag ? "::" : ":", table->name,
-                   choices[0]          ? choices
-                   : takes_file(table) ? "_files"
-                                       : " ");
-        printf("'");
-    }
-    printf("\n");
-}
-
-static void print_fish(const Usage *usage, const Parameter *table)
-{
-    char text[TEXT_SIZE];
-    if (!operands(usage)[0])
-        printf("complete -c %s -f\n", usage->name);
-    for (; table->name; table++) {
-        const char *choices = join_choices(table, " ", text);
-        printf("complete -c %s -l %s", usage->name, table->name);
-        if (table->letter)
-            printf(" -s %c", table->letter);
-        printf(choices[0] ? "%s -a '%s'" : "%s",
-               table->kind == PARAMETER_FLAG ? ""
-               : takes_file(table)           ? " -rF"
-                                             : " -x",
-               choices);
-        printf(" -d '");
-        print_clause(table, "\\");
-        printf("'\n");
-    }
+    TemplateValues *values = template_add(form, "option");
+    const bool flag = option->kind == PARAMETER_FLAG;
+    template_set(values, "name", "%s", option->name);
+    template_set(values, "letter", "%s", (const char[]){option->letter, '\0'});
+    const char *value = placeholder(option, text);
+    set_flag(values, "optional", value[0] && flag);
+    set_flag(values, "needs", value[0] && !flag);
+    set_roff(values, "value", value);
+    set_roff(values, "escaped", option->name);
+    set_roff(values, "meaning", meaning(option, text));
+    set_clause(values, "zsh", option->help, "[]\\");
+    set_clause(values, "fish", option->help, "\\");
+    const char *choices = join_choices(option, " ", text);
+    template_set(values, "choices", "%s", choices);
+    template_set(values, "words", "%s", flag ? "" : choices);
+    set_flag(values, "flag", flag);
+    set_flag(values, "takes", !flag || choices[0]);
+    set_flag(values, "file", takes_file(option));
 }
 
 void help_generate(const char *form, const Usage *usage, const Parameter *table)
 {
-    (form[0] == 'm'   ? print_man
-     : form[0] == 'b' ? print_bash
-     : form[0] == 'z' ? print_zsh
-                      : print_fish)(usage, table);
+    Message message = {0};
+    char text[DETAILS_SIZE], source[64];
+    TemplateValues *values = template_values();
+    template_set(values, "program", "%s", usage->name);
+    template_set(values, "version", "%s", VERSION);
+    template_set(values, "operands", "%s", operands(usage));
+    set_flag(values, "draws", !usage->gallery && !usage->study);
+    set_roff(values, "summary", usage->summary);
+    set_roff(values, "details", details(usage, text));
+    for (; table->name; table++) {
+        set_option(values, table);
+        if (strcmp(table->name, "backend") == 0 || strcmp(table->name, "shaders") == 0)
+            set_flag(values, table->name, true);
+    }
+    snprintf(source, sizeof source, "common/app/help.%s", form);
+    const bool done = template_print(source, values, stdout, &message);
+    template_close(values);
+    if (!done) {
+        fprintf(stderr, "%s: %s\n", usage->name, message.text);
+        exit(EXIT_FAILED);
+    }
 }

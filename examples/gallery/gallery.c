@@ -17,7 +17,7 @@
 #include "base/template.h"
 #include "base/text.h"
 #include "core/shader_files.h"
-#include "gallery/all_examples.h"
+#include "web/all_examples.h"
 #include "gallery/manifest.h"
 #include "gallery/regression.h"
 #include "gallery/sheet.h"

@@ -5,7 +5,7 @@
 #include "app/command.h"
 #include "base/json_writer.h"
 #include "choose/error_worker.h"
-#include "gallery/all_examples.h"
+#include "web/all_examples.h"
 #include "kinds/scene_views.h"
 
 #include <math.h>

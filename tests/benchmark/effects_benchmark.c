@@ -160,28 +160,7 @@ static void make_steps(void)
     }
 }
 
-/* The simplest scene by hand: its shaders and GL calls. */
-
-static const ShaderText BY_HAND[] = {
-    {"hand.vert", "attribute vec4 a_Position;\n"
-                  "attribute vec3 a_Normal;\n"
-                  "uniform mat4 u_ClipFromObject;\n"
-                  "uniform mat4 u_EyeFromObject;\n"
-                  "varying vec3 v_Normal;\n"
-                  "void main() {\n"
-                  "    gl_Position = u_ClipFromObject * a_Position;\n"
-                  "    v_Normal = vec3(u_EyeFromObject * vec4(a_Normal, 0.0));\n"
-                  "}\n"},
-    {"hand.frag", "precision highp float;\n"
-                  "uniform vec3 u_Direction;\n"
-                  "uniform vec3 u_Diffuse;\n"
-                  "varying vec3 v_Normal;\n"
-                  "void main() {\n"
-                  "    float cosine = max(dot(normalize(v_Normal), u_Direction), 0.0);\n"
-                  "    gl_FragColor = vec4(u_Diffuse * cosine, 1.0);\n"
-                  "}\n"},
-    {NULL, NULL},
-};
+/* The simplest scene by hand: its shaders, study/by_hand, and GL calls. */
 
 typedef struct Hand {
     Shader shader;
@@ -193,8 +172,7 @@ static Hand hand;
 
 static bool open_hand(Message *message)
 {
-    const ShaderLoader loader = {.texts = BY_HAND};
-    return shader_open(&hand.shader, &loader, "hand", message) &&
+    return shader_open(&hand.shader, &(ShaderLoader){0}, "study/by_hand", message) &&
            mesh_buffer_open(&hand.buffer, &sphere, message) &&
            shader_uniform(&hand.shader, "u_ClipFromObject", &hand.clip_from_object, message) &&
            shader_uniform(&hand.shader, "u_EyeFromObject", &hand.eye_from_object, message) &&

@@ -4,7 +4,7 @@
  */
 #include "app/renderer.h"
 #include "benchmark/bench.h"
-#include "gallery/all_examples.h"
+#include "web/all_examples.h"
 
 enum { ROUNDS = 31, FRAMES = 10 };
 

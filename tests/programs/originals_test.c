@@ -1,8 +1,8 @@
 /*
  * The lecture's pages and the textbook's demos in many states, drawn twice: by the programs, and as
  * the originals draw them. The judge shares nothing with common/lighting: a shader of a page, which
- * is the originals' equation written down, and arrays of vertices by their numbers. Equal are
- * pictures of which at most a thousandth of the pixels differ by more than 2 steps.
+ * is the originals' equation written down (original.glsl), and arrays of vertices by their numbers.
+ * Equal are pictures of which at most a thousandth of the pixels differ by more than 2 steps.
  */
 #include "app/options.h"
 #include "app/renderer.h"
@@ -23,43 +23,6 @@
 
 enum { SIZE = 200, LIGHTS = 4 };
 static const double PI = 3.14159265358979323846;
-
-/* The originals' equation, in eye coordinates; at the vertices or at the fragments. */
-static const char LIT[] =
-    "precision highp float;\n"
-    "uniform vec3 u_Ambient, u_Diffuse, u_Specular, u_Emission, u_Global, u_Axis;\n"
-    "uniform vec3 u_Ways;\n"                /* shininess; 1: Blinn's highlight; 1: a local viewer */
-    "uniform vec3 u_Place[4], u_Kind[4];\n" /* kind: w; 1: on; the cosine of a cutoff */
-    "uniform vec3 u_LightAmbient[4], u_LightDiffuse[4], u_LightSpecular[4];\n"
-    "vec3 lit(vec3 p, vec3 n, vec3 surface) {\n"
-    "  vec3 v = u_Ways.z > 0.5 ? normalize(-p) : vec3(0.0, 0.0, 1.0);\n"
-    "  vec3 sum = u_Emission + u_Global * u_Ambient * surface;\n"
-    "  for (int i = 0; i < 4; i++) {\n"
-    "    vec3 l = normalize(u_Place[i] - u_Kind[i].x * p);\n"
-    "    float facing = dot(l, n);\n"
-    "    if (u_Kind[i].y < 0.5) continue;\n"
-    "    sum += u_LightAmbient[i] * u_Ambient * surface;\n"
-    "    if (facing <= 0.0 || dot(-l, u_Axis) < u_Kind[i].z) continue;\n"
-    "    float c = u_Ways.y > 0.5 ? dot(normalize(l + v), n) : dot(2.0 * facing * n - l, v);\n"
-    "    sum += facing * u_LightDiffuse[i] * u_Diffuse * surface;\n"
-    "    if (c > 0.0) sum += pow(c, u_Ways.x) * u_LightSpecular[i] * u_Specular;\n"
-    "  }\n"
-    "  return sum;\n"
-    "}\n";
-static const char VERTEX[] =
-    "attribute vec4 a_Position; attribute vec3 a_Normal, a_Color;\n"
-    "uniform mat4 u_Clip, u_Eye, u_Normals; uniform vec3 u_PerVertex;\n"
-    "varying vec3 v_P, v_N, v_Color;\n"
-    "void main() {\n"
-    "  v_P = vec3(u_Eye * a_Position); v_N = normalize(vec3(u_Normals * vec4(a_Normal, 0.0)));\n"
-    "  v_Color = u_PerVertex.x > 0.5 ? lit(v_P, v_N, a_Color) : a_Color;\n"
-    "  gl_Position = u_Clip * vec4(v_P, 1.0);\n"
-    "}\n";
-static const char FRAGMENT[] =
-    "uniform vec3 u_PerVertex; varying vec3 v_P, v_N, v_Color;\n"
-    "void main() {\n"
-    "  gl_FragColor = vec4(u_PerVertex.x > 0.5 ? v_Color : lit(v_P, normalize(v_N), v_Color), 1.0);\n"
-    "}\n";
 
 /* What an original shows; light in eye coordinates. */
 typedef struct Lamp {
@@ -84,20 +47,11 @@ static Shader shader;
 static Overlay overlay;
 static Image ours, theirs;
 
-static void write_shader(const char *name, const char *text)
-{
-    char whole[4096];
-    const int length = snprintf(whole, sizeof whole, "#version 100\n%s%s", LIT, text);
-    testing_write(name, whole, (size_t)length);
-}
-
 FIXTURE(open_all)
 {
-    assert_int_equal(testing_enter_folder(NULL), 0);
-    write_shader("original.vert", VERTEX);
-    write_shader("original.frag", FRAGMENT);
+    const ShaderLoader loader = {.folder = testing_source("tests/programs")};
     SUCCEEDS(canvas_open(&canvas, &(CanvasOptions){.width = SIZE, .height = SIZE}, message));
-    SUCCEEDS(shader_open(&shader, &(ShaderLoader){.folder = "."}, "original", message));
+    SUCCEEDS(shader_open(&shader, &loader, "original", message));
     SUCCEEDS(overlay_open(&overlay, &(ShaderLoader){0}, message));
     SUCCEEDS(image_open(&ours, SIZE, SIZE, IMAGE_BYTE, message));
     SUCCEEDS(image_open(&theirs, SIZE, SIZE, IMAGE_BYTE, message));
@@ -110,7 +64,6 @@ FIXTURE(close_all)
     overlay_close(&overlay);
     shader_close(&shader);
     canvas_close(&canvas);
-    assert_int_equal(testing_leave_folder(NULL), 0);
 }
 
 /* Drawing as the originals do. */

@@ -1,8 +1,9 @@
 /*
- * Model files: valid ones are read correctly, others rejected with one line. Every file is written
- * here.
+ * Model files: valid ones are read correctly, others rejected with one line.
  */
+#include "base/output_text.h"
 #include "base/plugin.h"
+#include "base/template.h"
 #include "scene/model.h"
 #include "support/testing.h"
 #include "support/topology.h"
@@ -40,6 +41,19 @@ static void append(Bytes *bytes, const void *data, size_t size)
 static void append_floats(Bytes *bytes, const float *floats, size_t count)
 {
     append(bytes, floats, count * sizeof *floats); /* little-endian, like this machine */
+}
+
+/* Of a file in models/. */
+static Bytes file(const char *name)
+{
+    char path[64];
+    Bytes bytes = {.size = 0};
+    size_t size;
+    snprintf(path, sizeof path, "tests/scene/models/%s", name);
+    char *read = testing_read(testing_source(path), &size);
+    append(&bytes, read, size);
+    free(read);
+    return bytes;
 }
 
 /* model_read of a file with these bytes. */
@@ -88,28 +102,6 @@ static void assert_bounds(const Mesh *mesh, Vec3 low, Vec3 high, double toleranc
 
 /* Files. */
 
-static const char CUBE_OBJ[] = "# a cube of quads, without normals\n"
-                               "o cube\n"
-                               "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\n"
-                               "v -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
-                               "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
-
-static const char OCTAHEDRON_PLY[] = "ply\nformat ascii 1.0\ncomment an octahedron\n"
-                                     "element vertex 6\n"
-                                     "property float x\nproperty float y\nproperty float z\n"
-                                     "element face 8\n"
-                                     "property list uchar int vertex_indices\nend_header\n"
-                                     "1 0 0\n-1 0 0\n0 1 0\n0 -1 0\n0 0 1\n0 0 -1\n"
-                                     "3 0 2 4\n3 0 3 5\n3 0 4 3\n3 0 5 2\n"
-                                     "3 1 2 5\n3 1 3 4\n3 1 4 2\n3 1 5 3\n";
-
-static const char SQUARE_STL[] = "solid square\n"
-                                 "facet normal 0 0 1\nouter loop\n"
-                                 "vertex 0 0 2\nvertex 1 0 2\nvertex 1 1 2\nendloop\nendfacet\n"
-                                 "facet normal 0 0 1\nouter loop\n"
-                                 "vertex 0 0 2\nvertex 1 1 2\nvertex 0 1 2\nendloop\nendfacet\n"
-                                 "endsolid square\n";
-
 /* An STL file's bytes: a header; then for each facet its normal, three corners, two attributes. */
 static Bytes stl(const float normal[3], const float (*corners)[3], const uint16_t (*facets)[3],
                  uint32_t count)
@@ -152,48 +144,21 @@ static Bytes binary_ply(void)
     return bytes;
 }
 
-static void append_base64(Bytes *bytes, const void *data, size_t size)
-{
-    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    const unsigned char *next = data;
-    assert_int_equal(size % 3, 0);
-    for (size_t i = 0; i < size; i += 3, next += 3) {
-        const unsigned long word =
-            (unsigned long)next[0] << 16 | (unsigned long)next[1] << 8 | next[2];
-        for (int shift = 18; shift >= 0; shift -= 6)
-            append(bytes, &digits[word >> shift & 63], 1);
-    }
-}
-
 /* One tetrahedron, corners at the origin and at 1 on each axis, placed by these nodes: with or
  * without normals. */
 static Bytes gltf(const char *nodes, const char *attributes)
 {
-    static const struct {
-        float positions[4][3], normals[4][3];
-        uint16_t indices[12];
-    } data = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
-              {{-2, -2, -2}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}}, /* not normalized */
-              {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3}};
-    Bytes bytes = text("{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],"
-                       "\"nodes\":");
-    append(&bytes, nodes, strlen(nodes));
-    const char *meshes = ",\"meshes\":[{\"primitives\":[{\"indices\":2,\"attributes\":{";
-    append(&bytes, meshes, strlen(meshes));
-    append(&bytes, attributes, strlen(attributes));
-    const char *rest =
-        "}}]}],\"accessors\":["
-        "{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\","
-        "\"min\":[0,0,0],\"max\":[1,1,1]},"
-        "{\"bufferView\":1,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"},"
-        "{\"bufferView\":2,\"componentType\":5123,\"count\":12,\"type\":\"SCALAR\"}],"
-        "\"bufferViews\":[{\"buffer\":0,\"byteOffset\":0,\"byteLength\":48},"
-        "{\"buffer\":0,\"byteOffset\":48,\"byteLength\":48},"
-        "{\"buffer\":0,\"byteOffset\":96,\"byteLength\":24}],"
-        "\"buffers\":[{\"byteLength\":120,\"uri\":\"data:application/octet-stream;base64,";
-    append(&bytes, rest, strlen(rest));
-    append_base64(&bytes, &data, sizeof data);
-    append(&bytes, "\"}]}", 4);
+    OutputText form;
+    Bytes bytes = {.size = 0};
+    TemplateValues *values = template_values();
+    template_set(values, "nodes", "%s", nodes);
+    template_set(values, "attributes", "%s", attributes);
+    output_text_open(&form);
+    SUCCEEDS(template_print("tests/scene/models/tetrahedron.gltf", values, form.file, message));
+    char *made = output_text_close(&form);
+    append(&bytes, made, form.size);
+    free(made);
+    template_close(values);
     return bytes;
 }
 
@@ -204,7 +169,7 @@ static const char POSITION_AND_NORMAL[] = "\"POSITION\":0,\"NORMAL\":1";
 
 TEST(quads_without_normals_become_a_smooth_cube)
 {
-    CLOSED(mesh_close) Mesh mesh = read_sound("cube.obj", text(CUBE_OBJ));
+    CLOSED(mesh_close) Mesh mesh = read_sound("cube.obj", file("cube.obj"));
     assert_counts(&mesh, 8, 12);
     assert_bounds(&mesh, (Vec3){-1, -1, -1}, (Vec3){1, 1, 1}, 0);
     assert_true(topology_volume(&mesh) == 8 && topology_area(&mesh) == 24);
@@ -265,7 +230,7 @@ TEST(polygons_are_triangulated_and_degenerate_ones_dropped)
 
 TEST(a_ply_file_is_read_as_text_and_as_bytes)
 {
-    Mesh mesh = read_sound("octahedron.ply", text(OCTAHEDRON_PLY));
+    Mesh mesh = read_sound("octahedron.ply", file("octahedron.ply"));
     assert_counts(&mesh, 6, 8);
     assert_true(fabs(topology_volume(&mesh) - 4.0 / 3) < 1e-15); /* sixths: exact terms */
     for (size_t i = 0; i < 6; i++)
@@ -285,7 +250,7 @@ TEST(an_stl_file_is_read_as_text_and_as_bytes)
 {
     for (int binary = 0; binary < 2; binary++) {
         CLOSED(mesh_close)
-        Mesh mesh = read_sound("square.stl", binary ? binary_stl() : text(SQUARE_STL));
+        Mesh mesh = read_sound("square.stl", binary ? binary_stl() : file("square.stl"));
         assert_counts(&mesh, 4, 2);
         assert_true(topology_area(&mesh) == 1);
         assert_bounds(&mesh, (Vec3){0, 2, -1}, (Vec3){1, 2, 0}, 0); /* z is up */
@@ -631,7 +596,7 @@ TEST(invalid_models_are_rejected)
 /* Wherever it is cut behind its header; Assimp itself reads the rest as zeros. */
 TEST(a_ply_file_that_was_cut_is_rejected)
 {
-    const Bytes whole[] = {text(OCTAHEDRON_PLY), binary_ply()};
+    const Bytes whole[] = {file("octahedron.ply"), binary_ply()};
     for (int i = 0; i < 2; i++) {
         const char *end = strstr((const char *)whole[i].data, "end_header\n") + 11;
         const size_t header = (size_t)(end - (const char *)whole[i].data);
@@ -709,9 +674,9 @@ TEST(damaged_files_are_harmless)
         const char *name;
         Bytes bytes;
     } files[] = {
-        {"damaged.obj", text(CUBE_OBJ)}, {"damaged.ply", text(OCTAHEDRON_PLY)},
-        {"bytes.ply", binary_ply()},     {"damaged.stl", text(SQUARE_STL)},
-        {"bytes.stl", binary_stl()},     {"damaged.gltf", gltf("[{\"mesh\":0}]", POSITION)}};
+        {"damaged.obj", file("cube.obj")}, {"damaged.ply", file("octahedron.ply")},
+        {"bytes.ply", binary_ply()},       {"damaged.stl", file("square.stl")},
+        {"bytes.stl", binary_stl()},       {"damaged.gltf", gltf("[{\"mesh\":0}]", POSITION)}};
     enum { FILES = sizeof files / sizeof files[0] };
     struct rlimit before, after;
     assert_int_equal(getrlimit(RLIMIT_AS, &before), 0);

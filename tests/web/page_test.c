@@ -2,7 +2,7 @@
 #include "web/page.h"
 
 #include "app/options.h"
-#include "gallery/all_examples.h"
+#include "web/all_examples.h"
 #include "support/testing.h"
 
 #include <malloc.h>

@@ -1,8 +1,11 @@
+#include "base/output_text.h"
+#include "base/text.h"
 #include "images/label.h"
 #include "reference/picture_error.h"
 #include "study/report/report.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum {
@@ -12,7 +15,6 @@ enum {
     LETTERS = 14, /* the height of text */
     LINE = 22,
     BAR = 16, /* the height of the scale */
-    MAX_CAPTION_LINES = 8,
 };
 
 typedef struct Color {
@@ -152,35 +154,24 @@ static void put_scale(Sheet *sheet)
     }
 }
 
-/* Wraps a caption to the sheet's width; returns the number of lines. */
-static int break_lines(const char *caption, int width, char lines[MAX_CAPTION_LINES][512])
+/* The caption in lines of the sheet's width, to be freed; how many they are. */
+static char *break_lines(const char *caption, int width, int *count)
 {
-    const int max = (int)fmin(511, width / (0.6 * LETTERS));
-    int count = 0, used = 0;
-    for (const char *word = caption; *word && count < MAX_CAPTION_LINES;) {
-        const int length = (int)strcspn(word, " \n");
-        if (used && used + 1 + length > max) {
-            count++;
-            used = 0;
-            continue;
-        }
-        used += snprintf(lines[count] + used, (size_t)(512 - used), "%s%.*s", used ? " " : "",
-                         (int)fmin(length, max), word);
-        if (word[length] == '\n') {
-            count++;
-            used = 0;
-        }
-        word += length + (word[length] != '\0');
-    }
-    return count + (used > 0);
+    OutputText lines;
+    output_text_open(&lines);
+    text_wrap(lines.file, caption, 0, 0, (int)(width / (0.6 * LETTERS)));
+    char *text = output_text_close(&lines);
+    *count = text[0] != '\0';
+    for (const char *at = text; (at = strchr(at, '\n')); at++)
+        ++*count;
+    return text;
 }
 
-static void put_caption(Sheet *sheet, char lines[MAX_CAPTION_LINES][512], int count)
+static void put_caption(Sheet *sheet, char *lines)
 {
-    const int top = 2 * MARGIN + LINE + sheet->height + BAR + LINE + MARGIN;
-    for (int i = 0; i < count; i++)
-        image_label(&sheet->image, sheet->image.width / 2, top + i * LINE + LETTERS, LETTERS,
-                    lines[i], NULL);
+    int y = 2 * MARGIN + LINE + sheet->height + BAR + LINE + MARGIN + LETTERS;
+    for (char *line = strtok(lines, "\n"); line; line = strtok(NULL, "\n"), y += LINE)
+        image_label(&sheet->image, sheet->image.width / 2, y, LETTERS, line, NULL);
 }
 
 bool report_pair(const Image *drawn, const Reference *exact, const char *path, Message *message)
@@ -205,7 +196,7 @@ bool report_pair(const Image *drawn, const Reference *exact, const char *path, M
 bool report_sheet(const Image *drawn, const Reference *exact, const char *caption, const char *path,
                   Message *message)
 {
-    char lines[MAX_CAPTION_LINES][512] = {{0}};
+    int count;
     Sheet sheet = {.scale = 1};
     if (drawn->width != exact->width || drawn->height != exact->height)
         return message_set(message, "%s: the drawn picture has %dx%d pixels, the exact one %dx%d",
@@ -214,7 +205,7 @@ bool report_sheet(const Image *drawn, const Reference *exact, const char *captio
     sheet.width = sheet.scale * exact->width;
     sheet.height = sheet.scale * exact->height;
     const int width = PANELS * (sheet.width + MARGIN) + MARGIN;
-    const int count = break_lines(caption, width - 2 * MARGIN, lines);
+    char *lines = break_lines(caption, width - 2 * MARGIN, &count);
     const int height = 3 * MARGIN + LINE + sheet.height + BAR + LINE + MARGIN + count * LINE;
     Image panels[PANELS] = {{.width = 0}};
     bool done = open_panels(panels, drawn, exact, message) &&
@@ -227,9 +218,10 @@ bool report_sheet(const Image *drawn, const Reference *exact, const char *captio
         for (int panel = 0; panel < PANELS; panel++)
             put_panel(&sheet, panel, &panels[panel]);
         put_scale(&sheet);
-        put_caption(&sheet, lines, count);
+        put_caption(&sheet, lines);
         done = image_write(&sheet.image, path, &options, message);
     }
+    free(lines);
     close_panels(panels);
     image_close(&sheet.image);
     return done;
