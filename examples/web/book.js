@@ -149,6 +149,7 @@ const Book = (() => {
             this.drawn = this.key();
             if (message) {
                 this.told.textContent = message;
+                document.body.classList.toggle("still", !book.figures.some(({picture}) => picture));
                 return;
             }
             this.picture = book.engine.picture();
@@ -304,6 +305,7 @@ const Book = (() => {
             book.printing = true;
             closed = [...document.querySelectorAll(".expect:not([open])")];
             closed.forEach(question => { question.open = true; });
+            document.querySelectorAll(".drawn").forEach(image => { image.loading = "eager"; });
         });
         window.addEventListener("afterprint", () => {
             closed.forEach(question => { question.open = false; });
@@ -334,6 +336,7 @@ const Book = (() => {
     open().catch(error => {
         document.getElementById("error").textContent = "The figures stand still, because this page cannot draw: " + error;
         document.body.dataset.ready = "still";
+        document.body.classList.add("still");
     });
     return {book, schedule, read, point};
 })();

@@ -31,6 +31,7 @@ FOLDER = pathlib.Path(__file__).resolve().parent.parent / "chapter"
 SHADERS = FOLDER.parent.parent / "shaders"
 FIGURE = re.compile(r"^!\[((?:[^\[\]]|\[[^\]]*\])*)\]\((program|change|precision|formula): *([^)]*)\)$", re.MULTILINE)
 ANSWER = re.compile(r"`([A-Z]\w+ --[^`]+|hard_cases --[^`]+)`\n+:   ")
+SETS = re.compile(r"`(--[^`]+|[A-Z]\w+(?: --[^`]+)?|hard_cases --[^`]+)`\n+:   ")
 CHECK = re.compile(r'\[([^\[\]]*)\]\{check="([^"]*)"\}')
 PLACE = re.compile(r"<!-- place: (.*?) -->", re.DOTALL)
 AT = re.compile(r"<!-- at: (.*?) -->", re.DOTALL)
@@ -65,6 +66,20 @@ class Figure:
         return "examples/run " + " ".join(self.words)
 
 
+def merge(base, words):
+    """The later of two values of an option wins, as in a page."""
+    name, *first = base.split()
+    values = {}
+    for words_of in (first, words.split()):
+        last = None
+        for word in words_of:
+            if word.startswith("--"):
+                last, values[word] = word, []
+            else:
+                values[last].append(word)
+    return " ".join([name, *(part for option, rest in values.items() for part in (option, *rest))])
+
+
 def draw_one(programs, words, to):
     """The picture of a command; of a hard case its sheet."""
     name, *options = words
@@ -93,7 +108,19 @@ class Chapter:
         # Of answers that no live figure draws: the command's words by the name of the picture.
         self.answers = {f"{self.name}_answer{i + 1}.{suffix(words.split()[0])}": words
                         for i, words in enumerate(words for words in ANSWER.findall(self.text) if words.split()[0] in STILL)}
+        # Of the others, in order: where a live figure draws it, the picture's name, for paper, and the command; else None.
+        self.drawn = [words and (f"{self.name}_drawn{i + 1}.png", words) for i, words in enumerate(self.commands())]
         self.checks = CHECK.findall(self.text)
+
+    def commands(self):
+        """Of each answer that sets options of a program in the pages' module; None where the figure above is not such a program."""
+        figures, base, found = iter(self.figures), None, []
+        for part in re.finditer(f"{FIGURE.pattern}|{SETS.pattern}", self.text, re.MULTILINE):
+            if part[2]:
+                base = next(figures)
+            elif part[4].split()[0] not in STILL:
+                found.append(None if not base.live else merge(" ".join(base.words), part[4]) if part[4].startswith("--") else part[4])
+        return found
 
     def sections(self):
         """(heading, text) of each section, the chapter's own title first."""
@@ -182,7 +209,7 @@ def block(figure, change):
             f'<figcaption>\n```\n\n**Figure {figure.number}.** {figure.caption}\n\n```{{=html}}\n{command}</figcaption></figure>\n```')
 
 
-def ask(found, chapter):
+def ask(found, chapter, drawn):
     """Questions, of which some set options, or show another still picture."""
     items = []
     names = {words: name for name, words in chapter.answers.items()}
@@ -191,6 +218,8 @@ def ask(found, chapter):
         words = f' data-words="{html.escape(html.unescape(code[1]))}"' if code else ""
         still = names.get(html.unescape(code[1])) if code else None
         image = f'<div class="still {code[1].split()[0]}"><img src="{still}" alt="" loading="lazy"></div>' if still else ""
+        made = next(drawn) if code and not still else None
+        image += f'<img class="drawn" src="{made[0]}" alt="" loading="lazy">' if made else ""
         items.append(f'<details class="expect"{"" if still else words}><summary>{question}</summary>\n{answer.strip()}{image}</details>')
     return "\n".join(items)
 
@@ -220,7 +249,9 @@ def body(chapter, change):
     # Pieces that stand in one line or, on a phone, one below the other.
     text = re.sub(r"^\$\$.*\$\$$", lambda found: re.sub(r"(\\qquad)|\\allowbreak", r"\1 $$ $$ ", found[0]), text, flags=re.MULTILINE)
     made = markdown.to_html(CHECK.sub(r"\1", text), link).replace("<h1>", f"<h1>{chapter.number}. ", 1)
-    made = re.sub(r"<dl>(.*?)</dl>", lambda found: ask(found, chapter), made, flags=re.DOTALL)
+    drawn = iter(chapter.drawn)
+    made = re.sub(r"<dl>(.*?)</dl>", lambda found: ask(found, chapter, drawn), made, flags=re.DOTALL)
+    assert not list(drawn), f"{chapter.path.name}: a question's options are not at its end"
     return made + numbers(chapter)
 
 
@@ -229,7 +260,7 @@ def draw(folder, programs):
         for figure in chapter.figures:
             if figure.picture:
                 draw_one(programs, figure.words, folder / figure.picture)
-        for name, words in chapter.answers.items():
+        for name, words in [*chapter.answers.items(), *filter(None, chapter.drawn)]:
             draw_one(programs, words.split(), folder / name)
 
 

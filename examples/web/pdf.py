@@ -37,7 +37,7 @@ def article(site, name):
     text = re.search(r"<article>\n(.*)</article>", (site / f"{name}.html").read_text(encoding="utf-8"), re.DOTALL)[1]
     text = re.sub(r'<canvas hidden.*?</canvas>|<form class="controls".*?</form>|<details class="numbers">.*?</details>', "", text,
                   flags=re.DOTALL)
-    text = text.replace("<details ", "<details open ")
+    text = text.replace("<details ", "<details open ").replace(' loading="lazy"', "")
     text = re.sub(r'href="(chapter\d\d)\.html"', r'href="#\1"', text)
     return re.sub(r'<a href="\w+\.html">(.*?)</a>', r"\1", text)
 

@@ -57,7 +57,7 @@ class Figures(unittest.TestCase):
             if match[1]:
                 base = (match[1].partition(" live: ")[2].partition(" plain:")[0] or match[1].partition("controls:")[0]).strip()
             elif match[2].startswith("--"):
-                found.append(merge(base, match[2]))
+                found.append(book.merge(base, match[2]))
             else:
                 found.append(match[2])
         return found
@@ -78,20 +78,6 @@ class Figures(unittest.TestCase):
                 if figure.kind == "program":
                     with self.subTest(figure.number):
                         self.assertGreaterEqual(len(re.findall(r"^:   ", text, re.MULTILINE)), 2)
-
-
-def merge(base, words):
-    """The later of two values of an option wins, as in a page."""
-    name, *first = base.split()
-    values = {}
-    for words_of in (first, words.split()):
-        last = None
-        for word in words_of:
-            if word.startswith("--"):
-                last, values[word] = word, []
-            else:
-                values[last].append(word)
-    return " ".join([name, *(part for option, rest in values.items() for part in (option, *rest))])
 
 
 class Formulas(unittest.TestCase):

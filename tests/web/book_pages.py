@@ -199,7 +199,7 @@ class Book(Case):
                 found = text.find(words, at)
                 self.assertGreater(found, -1, words)
                 at = found
-            pictures += len(re.findall(r'<img src="\w+\.png"', source))
+            pictures += len(re.findall(r'<img (?:class="drawn" )?src="\w+\.png"', source))
         self.assertGreaterEqual(len(images), pictures)
 
     @staticmethod
@@ -218,6 +218,8 @@ class Book(Case):
             self.page.wait("Book.book.figures.every(({drawn}) => drawn)")
             self.assertEqual(self.page.run("[...document.querySelectorAll('figure > canvas')].filter(c => !c.hidden).length"), 0)
             self.assertEqual(self.page.run("[...document.querySelectorAll('figure > img')].filter(c => !c.offsetHeight).length"), 0)
+            self.page.run("document.querySelectorAll('details.expect').forEach(part => { part.open = true; })")
+            self.page.wait("[...document.querySelectorAll('.drawn')].every(image => image.naturalWidth && image.offsetHeight)")
         finally:
             self.page.call("Page.removeScriptToEvaluateOnNewDocument", identifier=script)
 

@@ -4,7 +4,7 @@ import unittest
 
 import firefox
 from labs_pages import SHADERS, SOLUTION, OfLabs, check, mistakes, said
-from pages import RENDERER, differences, native
+from pages import RENDERER, address, differences, native
 
 MISSING = firefox.missing()
 SAYS_MEDIUMP = ("PointLightedCube_perFragment", "PointLightedSphere_perFragment")
@@ -56,6 +56,21 @@ class InFirefox(OfLabs):
         self.page.run("document.getElementById('forward').click(), document.getElementById('back').click()")
         self.settle()
         self.assertEqual(self.shown(), before)
+
+    def test_a_pixel_of_the_book(self):
+        """Both formulas of the chapter have its numbers."""
+        self.page.open(address("chapter13"), "document.body.dataset.ready === 'yes'")
+        self.page.run("Book.book.figures[1].where.scrollIntoView()")
+        self.page.wait("Book.book.figures[1].drawn")
+        self.page.run("""(() => {
+            const {canvas} = Book.book.figures[1], box = canvas.getBoundingClientRect();
+            const at = {bubbles: true, clientX: box.left + 205.5 * box.width / canvas.width, clientY: box.top + 170.5 * box.height / canvas.height};
+            canvas.dispatchEvent(new PointerEvent("pointerdown", at));
+            canvas.dispatchEvent(new PointerEvent("pointerup", at));
+            canvas.dispatchEvent(new MouseEvent("click", at));
+        })()""")
+        self.page.wait("document.querySelectorAll('[data-at]:not([hidden])').length === 2")
+        self.assertIn("pixel 205, 170:", self.text("[data-at]"))
 
     def test_labs(self):
         for name in ("index", "labs", *mistakes.NAMES.values()):
