@@ -121,7 +121,7 @@ static int lex_operator(const char *text, unsigned char *kind)
                 {"*=", TOKEN_MULTIPLY},  {"/=", TOKEN_DIVIDE},     {"%=", TOKEN_LATER},
                 {"&=", TOKEN_LATER},     {"|=", TOKEN_LATER},      {"^=", TOKEN_LATER}};
     for (size_t i = 0; i < sizeof LONG / sizeof LONG[0]; i++)
-        if (strncmp(text, LONG[i].text, strlen(LONG[i].text)) == 0) {
+        if (text[0] == LONG[i].text[0] && strncmp(text, LONG[i].text, strlen(LONG[i].text)) == 0) {
             *kind = LONG[i].kind;
             return (int)strlen(LONG[i].text);
         }

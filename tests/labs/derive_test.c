@@ -9,15 +9,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MUTANTS = 3 }; /* of each shader */
+enum { EVERY = 397 }; /* of all mutants */
 
 typedef struct Trial {
     const Lab *lab;
     LabPictures pictures;
     char *texts[2];
-    int stage;      /* that is mutated */
-    int step, seen; /* every so manieth is tried */
-    int tried, named, same;
+    int stage, seen; /* stage: that is mutated */
+    int tried, named;
 } Trial;
 
 static char *read_solution(const Lab *lab, int stage)
@@ -64,12 +63,6 @@ static void try(Trial *trial, const Mutation *mutation, const char *text)
     const bool named = verdict.mistake_count > 0;
     trial->tried++;
     trial->named += named;
-    /* By its name, or what is right instead. */
-    char was[32];
-    snprintf(was, sizeof was, "%.31s", mutation->was);
-    trial->same += named && verdict.mistake_count == 1 &&
-                   (strncmp(verdict.mistakes[0].name, mutation->name, 63) == 0 ||
-                    strstr(verdict.mistakes[0].sentence, was));
     if (!named)
         printf("%s: without a name: %s\n", trial->lab->file, mutation->name);
 }
@@ -77,16 +70,8 @@ static void try(Trial *trial, const Mutation *mutation, const char *text)
 static bool take(void *context, const Mutation *mutation, const char *text)
 {
     Trial *trial = context;
-    if (trial->seen++ % trial->step == trial->step / 2)
+    if (trial->seen++ % EVERY == EVERY / 2)
         try(trial, mutation, text);
-    return true;
-}
-
-static bool count(void *context, const Mutation *mutation, const char *text)
-{
-    (void)mutation;
-    (void)text;
-    ++*(int *)context;
     return true;
 }
 
@@ -102,11 +87,6 @@ static void test_lab(const Lab *lab, Trial *sum)
         trial.texts[i] = read_solution(lab, i);
     for (trial.stage = 0; trial.stage < 2; trial.stage++) {
         GlslTree *tree = glsl_parse(trial.texts[trial.stage], (GlslStage)trial.stage, NULL);
-        int all = 0;
-        mutations_each(tree, numbers, 1, count, &all);
-        glsl_tree_free(tree);
-        tree = glsl_parse(trial.texts[trial.stage], (GlslStage)trial.stage, NULL);
-        trial.step = all / MUTANTS + 1;
         trial.seen = 0;
         mutations_each(tree, numbers, 1, take, &trial);
         glsl_tree_free(tree);
@@ -116,7 +96,6 @@ static void test_lab(const Lab *lab, Trial *sum)
     lab_pictures_close(&trial.pictures);
     sum->tried += trial.tried;
     sum->named += trial.named;
-    sum->same += trial.same;
 }
 
 TEST(test_mutants)
@@ -125,10 +104,8 @@ TEST(test_mutants)
     for (int i = 0; i < LAB_COUNT; i += testing_step(2))
         if (!LABS[i].given && !LABS[i].budget && !LABS[i].shadow) /* the last needs a driver */
             test_lab(&LABS[i], &sum);
-    printf("%d mutants, %d named, %d by their own texts\n", sum.tried, sum.named, sum.same);
     assert_true(sum.tried >= 3); /* with a quarter of the cases, too */
     assert_int_equal(sum.named, sum.tried);
-    assert_true(2 * sum.same >= sum.tried);
 }
 
 int main(void)

@@ -262,14 +262,14 @@ class Wrong(Labs):
         elsewhere = [row[:4] + (row[4]["mistakes"],) for row in named_rows if not row[5]]
         self.assertLessEqual(len(elsewhere), 0.25 * len(named_rows), elsewhere)
 
-    def test_two_at_once_have_no_wrong_name(self):
-        """Few of two are named; of the others it is said what is wrong."""
+    def test_two_at_once_are_named(self):
+        """Of those that are not it is said what is wrong."""
         chance = random.Random(7)
         jobs = [
             (lab, first, second, 9) for lab in LABS for first, second in pairs_of(lab, 4, chance)
         ]
         rows = in_parallel(judge_pair, jobs[:: 4 * base.step(30)])
-        self.assert_named(rows, 0)
+        self.assert_named(rows, 0.6)
         for row in rows:
             self.assertTrue(row[3] == "named" or row[4]["symptoms"], row)
 

@@ -9,7 +9,6 @@
 #include "labs/check/code.h"
 #include "labs/diagnosis/diagnose.h"
 #include "labs/diagnosis/text_facts.h"
-#include "labs/diagnosis/undefined.h"
 #include "labs/submission/submission.h"
 
 #include <stdio.h>

@@ -169,6 +169,32 @@ static bool open_own(Derivation *all, const SubmissionFiles *files)
     return true;
 }
 
+/* Whether the pair draws at all points, with a map of this byte, what the submission draws. */
+static bool is_same_with_map(Derivation *all, PointShader pair[2], int byte)
+{
+    const size_t size = (size_t)LAB_SHADOW_MAP_SIZE * LAB_SHADOW_MAP_SIZE * 4;
+    unsigned char *map = memset(memory_new(size, 1), byte, size);
+    bool same = true;
+    for (int i = 0; i < all->points.count && same; i++) {
+        double numbers[POINT_NUMBERS];
+        PointSetting *setting = &all->points.settings[all->points.items[i].setting];
+        unsigned char *was = setting->map;
+        setting->map = map;
+        points_run(&all->points, &pair[0], &pair[1], i, numbers);
+        setting->map = was;
+        same = points_apart(numbers, all->wanted[i]) <= DERIVATION_EQUAL;
+    }
+    free(map);
+    return same;
+}
+
+bool derivation_wastes_map(Derivation *all)
+{
+    return all->reads_map &&
+           (is_same_with_map(all, all->right, 255) ||
+            (is_same_with_map(all, all->own, 255) && is_same_with_map(all, all->own, 0)));
+}
+
 Derivation *derivation_open(const LabPictures *pictures, const SubmissionFiles *files,
                             Message *message)
 {
@@ -183,6 +209,8 @@ Derivation *derivation_open(const LabPictures *pictures, const SubmissionFiles *
     all->exact = memory_new(count, sizeof *all->exact);
     all->order = memory_new(count, sizeof *all->order);
     derivation_run(all, all->own, all->wanted, NULL);
+    for (int i = 0; i < all->points.setting_count; i++)
+        all->reads_map |= all->points.settings[i].map_read;
     return all;
 }
 
@@ -200,6 +228,8 @@ void derivation_close(Derivation *all)
     free(all->undeclared[0]);
     free(all->undeclared[1]);
     free(all->best.text);
+    free(all->mending.text);
+    free(all->second.text);
     points_close(&all->points);
     free(all->wanted);
     free(all->exact);

@@ -9,10 +9,7 @@
 #include "labs/diagnosis/points.h"
 #include "labs/submission/verdict.h"
 
-enum { MAX_FIRST = 10, TRACED = 6, MAX_VALUES = 400, MAX_RIGHTS = 8 };
-
-/* Of all points in the order of a search, those that rule out most of what is tried. */
-enum { HOPELESS_POINTS = 8, FIRST_POINTS = 32 };
+enum { TRACED = 6, MAX_VALUES = 400, MAX_RIGHTS = 8 };
 
 /* Equal formulas differ by 1e-12, with attributes in floats by 1e-7, with constants like 3.14159 by
  * more. A highlight that nearly vanishes is 1e-4 from one that does. */
@@ -21,14 +18,13 @@ enum { HOPELESS_POINTS = 8, FIRST_POINTS = 32 };
 /* What a pair of shaders draws at each point. */
 typedef double (*Numbers)[POINT_NUMBERS];
 
-/* One mutation, or two: of a text that has another already. */
+/* One mutation, or the second of two. */
 typedef struct Found {
     Mutation mutation;
     const struct Found *first; /* NULL: one */
     GlslStage stage;
     char *text;
     double apart;
-    int like;   /* of the first points, how many */
     int shared; /* of the submission's values */
     int other;  /* operations and names that the submission has more or less often */
 } Found;
@@ -47,21 +43,19 @@ typedef struct Derivation {
     char *nearest_text;   /* of its fragment shader, if it has other numbers */
     double wrong_by;
     bool noted; /* the submission does what is undefined */
+    bool reads_map;
     double numbers[MUTATION_NUMBERS];
     int number_count, own_number_count; /* as they are in the submission */
     double right_numbers[MUTATION_NUMBERS];
     int right_number_count;
-    char *undeclared[2];      /* uniforms that the submission's stages lack */
-    GlslStage stage;          /* that is mutated */
-    PointShader *base[2];     /* of what: the right program, or a mutant of it */
-    const Found *first;       /* that mutant */
-    Found nearest[MAX_FIRST]; /* single mutations that explain some points more */
-    int nearest_count, like;
-    Found best;  /* of those that compute the same; its text is NULL: none does */
-    bool unique; /* no other has as many of the submission's values */
-    int tried;
-    Found mending; /* the change of the submission that makes it right, if `mended` */
+    char *undeclared[2]; /* uniforms that the submission's stages lack */
+    GlslStage stage;     /* that is mutated */
+    Found best;          /* of those that compute the same; its text is NULL: none does */
+    bool unique;         /* no other has as many of the submission's values */
+    Found mending;       /* the change of the submission that makes it right, if `mended` */
     bool mended, mended_there;
+    Found second; /* of two changes, if `two_found`: of the submission, or of a right program */
+    bool two_found, mended_twice;
     int place_node; /* of the submission, in place_stage: the first wrong value; 0: not known */
     GlslStage place_stage;
 } Derivation;
@@ -75,6 +69,10 @@ void derivation_close(Derivation *all); /* NULL is fine */
  */
 bool derivation_read(const Lab *lab, const ShaderLoader *loader, const char *folder, int stage,
                      const char *ending, ShaderSource *source);
+
+/* Lab 11: whether the submission reads the shadow map for nothing: no shadow is there, or all is in
+ * shadow with any map. The right program has to be open. */
+bool derivation_wastes_map(Derivation *all);
 
 /* Runs a pair at all points; the sum of how far it is from `wanted`, which may be NULL. */
 double derivation_run(Derivation *all, PointShader pair[2], Numbers numbers, Numbers wanted);
@@ -99,8 +97,31 @@ void right_run_all(Derivation *all);
 char *right_undeclared(const Points *points, const GlslTree *tree);
 char *right_declare(const char *declarations, const char *text);
 
+/* Adds the mistake, or two, of which a change (mutation.h) makes the submission right, or a right
+ * program compute the same; less sure if others do, too, and are as near to the submission's text.
+ * False: none is found. */
+bool derive_mistake(Derivation *all, Verdict *verdict);
+
+/* Runs the lab's right program of this ending; false: it has none. `order` begins where the
+ * submission is farthest from it, and `wrong_by` says how far. */
+bool derive_use_right(Derivation *all, const char *ending, LitAt lit);
+
 /* Finds the one change of the submission, if any, that makes it right. */
 bool mend_find(Derivation *all);
+
+/* Opens the stage's mutant: of the submission (`own`), with what it does not declare, or of the
+ * right program. */
+bool mend_open(const Derivation *all, const char *text, bool own, PointShader *shader);
+
+/* Whether the pair is right at all points. */
+bool mend_is_right(Derivation *all, PointShader *const pair[2]);
+
+/* Whether the pair computes what the submission does. */
+bool derive_is_same(Derivation *all, PointShader *const pair[2]);
+
+/* Finds two changes, if any: of the submission that make it right together, or of the right program
+ * that is open. */
+bool two_find(Derivation *all, bool mends);
 
 /* What shaders assign on their way, in order. */
 typedef struct Values {
@@ -132,6 +153,14 @@ void derivation_place(const Derivation *all, GlslStage stage, int node, char *te
 /* Adds the mistake of a submission that computes at the vertices what has to be computed at each
  * fragment; false: it does not. */
 bool at_vertices_explain(Derivation *all, Verdict *verdict);
+
+/* What of the light is seen with `without` and not with `beside`: POINTS_NO_. */
+typedef struct Term {
+    char name[40];
+    int without, beside;
+} Term;
+enum { MAX_TERMS = 7 };
+int wrong_part_list(const Lab *lab, Term terms[MAX_TERMS]);
 
 /* Says which terms are right or wrong and, if one value alone explains all, which. */
 void wrong_part_describe(Derivation *all, Verdict *verdict);

@@ -3,7 +3,7 @@
  * What is left computes the same numbers at hundreds of points. If several do, that one is named
  * which has most of the submission's values on its way: a light whose direction is reversed draws
  * what a reversed normal draws, but only one of the two is among the submission's values. */
-#include "labs/diagnosis/derive.h"
+#include "labs/diagnosis/derivation.h"
 
 #include "base/memory.h"
 
@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double UNIQUE = 0.9, ONE_OF_SEVERAL = 0.75;
+static const double UNIQUE = 0.9, ONE_OF_SEVERAL = 0.75, TINY = 1e-4;
 static const double EQUAL = DERIVATION_EQUAL, ALIKE = 1e-6;
 
 /* Constants of a shader that may be a mistake's numbers: they and their reciprocals. */
@@ -29,7 +29,8 @@ static void take_number(double numbers[MUTATION_NUMBERS], int *count, double num
 static void take_numbers(const GlslTree *tree, int node, double *numbers, int *count)
 {
     const GlslNode *at = &tree->nodes[node];
-    if (at->constant && at->type == GLSL_FLOAT)
+    /* A tiny one draws what 0 does. */
+    if (at->constant && at->type == GLSL_FLOAT && fabs(tree->values[at->value]) >= TINY)
         take_number(numbers, count, tree->values[at->value]);
     for (int i = at->first; i; i = tree->nodes[i].next)
         take_numbers(tree, i, numbers, count);
@@ -49,9 +50,12 @@ static void take_own_numbers(Derivation *all)
     }
 }
 
-/* Those of a right program. */
+/* Those of a right program, of formulas that can be written in another way, and what is usual. */
 static void take_right_numbers(Derivation *all)
 {
+    static const double USUAL[] = {2, 0.5};
+    for (int i = 0; i < 2; i++)
+        take_number(all->right_numbers, &all->right_number_count, USUAL[i]);
     for (int i = 0; i < 2; i++)
         take_numbers(all->right[i].tree, all->right[i].tree->root, all->right_numbers,
                      &all->right_number_count);
@@ -92,41 +96,24 @@ static void sort_points(Derivation *all)
     free(list);
 }
 
-enum { MOST = 20000 /* mutants: some seconds */ };
-
-/* How far the pair is from the submission, and how many of the first points are alike; far away:
- * it is not looked at further. */
-static double distance(Derivation *all, PointShader *vertex, PointShader *fragment, int *like)
+/* How far the pair is from the submission; far away: it is not looked at further. */
+static double distance(Derivation *all, PointShader *const pair[2])
 {
     double most = 0, numbers[POINT_NUMBERS];
-    *like = 0;
-    for (int i = 0; i < all->points.count && (most <= EQUAL || i < FIRST_POINTS); i++) {
+    for (int i = 0; i < all->points.count && most <= EQUAL; i++) {
         const int point = all->order[i];
-        points_run(&all->points, vertex, fragment, point, numbers);
-        const double apart = points_apart(numbers, all->wanted[point]);
-        most = fmax(most, apart);
-        *like += i < FIRST_POINTS && apart <= EQUAL;
-        if ((i == HOPELESS_POINTS && *like == 0) ||
-            (!all->noted && vertex->run->note_count + fragment->run->note_count > 0))
+        points_run(&all->points, pair[0], pair[1], point, numbers);
+        most = fmax(most, points_apart(numbers, all->wanted[point]));
+        /* Undefined where the submission is not. */
+        if (!all->noted && pair[0]->run->note_count + pair[1]->run->note_count > 0)
             return 2;
     }
     return most;
 }
 
-static void keep_nearest(Derivation *all, const Found *found)
+bool derive_is_same(Derivation *all, PointShader *const pair[2])
 {
-    int at = all->nearest_count;
-    if (all->first || found->like <= all->like ||
-        (at == MAX_FIRST && found->like <= all->nearest[at - 1].like))
-        return;
-    if (at == MAX_FIRST)
-        free(all->nearest[--at].text);
-    else
-        all->nearest_count++;
-    for (; at > 0 && all->nearest[at - 1].like < found->like; at--)
-        all->nearest[at] = all->nearest[at - 1];
-    all->nearest[at] = *found;
-    all->nearest[at].text = memory_text(found->text);
+    return distance(all, pair) <= EQUAL;
 }
 
 /* Opens a mutant again, beside the right program's other stage. */
@@ -226,22 +213,18 @@ static void take_found(Derivation *all, Found *found)
 static bool try_mutant(void *context, const Mutation *mutation, const char *text)
 {
     Derivation *all = context;
-    PointShader shader;
-    Found found = {.mutation = *mutation, .stage = all->stage, .first = all->first};
-    all->tried++;
-    if (!point_shader_open(&shader, text, all->stage))
+    PointShader shader, *pair[2] = {&all->right[0], &all->right[1]};
+    Found found = {.mutation = *mutation, .stage = all->stage};
+    if (!mend_open(all, text, false, &shader))
         return true;
-    shader.at_once = all->stage == GLSL_VERTEX && all->right[0].at_once;
-    found.text = memory_text(text);
-    found.apart = all->stage == GLSL_VERTEX ? distance(all, &shader, all->base[1], &found.like)
-                                            : distance(all, all->base[0], &shader, &found.like);
-    keep_nearest(all, &found);
+    pair[all->stage] = &shader;
+    found.apart = distance(all, pair);
     point_shader_close(&shader);
-    if (found.apart <= EQUAL)
+    if (found.apart <= EQUAL) {
+        found.text = memory_text(text);
         take_found(all, &found);
-    else
-        free(found.text);
-    return !all->first || all->tried < MOST;
+    }
+    return true;
 }
 
 /* The submission's values, the right program's and the mutant's at a point. */
@@ -296,23 +279,26 @@ static void add(const char *name, const Mutation *mutation, const char *place, d
 }
 
 /* The line that has to change, and to what. */
-static void say_mending(Derivation *all, char look[VERDICT_SENTENCE_SIZE], Verdict *verdict)
+static void say_mending(Derivation *all, const Found *found, Verdict *verdict)
 {
     const Found *best = &all->best;
-    const Mutation *mending = &all->mending.mutation;
-    char place[VERDICT_SENTENCE_SIZE], sentence[VERDICT_SENTENCE_SIZE];
-    derivation_place(all, all->mending.stage, mending->node, place, sizeof place);
-    snprintf(look, VERDICT_SENTENCE_SIZE, "%.250s; all is right with %s", place,
-             mending->by[0] ? mending->by : "nothing there");
+    const Mutation *mending = &found->mutation;
+    char place[VERDICT_SENTENCE_SIZE], sentence[VERDICT_SENTENCE_SIZE], look[VERDICT_SENTENCE_SIZE];
+    derivation_place(all, found->stage, mending->node, place, sizeof place);
+    snprintf(look, VERDICT_SENTENCE_SIZE, "%.250s; all is right with %s%s", place,
+             mending->by[0] ? mending->by : "nothing there",
+             all->mended_twice ? " and the other change" : "");
+    const double sure = all->mended_twice && !all->unique ? ONE_OF_SEVERAL : UNIQUE;
     if (best->text && best->mutation.general && all->unique) {
         add(best->mutation.name, &best->mutation, look, UNIQUE, verdict);
         return;
     }
     char name[64];
     snprintf(name, sizeof name, "%.63s", mending->mends);
-    snprintf(sentence, sizeof sentence, "It draws what is right with %s instead of %s.",
-             mending->by[0] ? mending->by : "nothing", mending->was);
-    verdict_add_mistake(verdict, name, sentence, look, UNIQUE);
+    snprintf(sentence, sizeof sentence, "It draws what is right with %s instead of %s%s.",
+             mending->by[0] ? mending->by : "nothing", mending->was,
+             all->mended_twice ? ", once the other mistake is mended, too" : "");
+    verdict_add_mistake(verdict, name, sentence, look, sure);
 }
 
 /* Whether the first wrong value is known, and not just the result. */
@@ -328,12 +314,14 @@ static bool is_inside(const Derivation *all)
 
 static void say(Derivation *all, Verdict *verdict)
 {
-    const Found *found = &all->best;
+    const Found *found = all->two_found ? &all->second : &all->best;
     const double sure = all->unique ? UNIQUE : ONE_OF_SEVERAL;
     char look[VERDICT_SENTENCE_SIZE];
     const bool other = found->text && found->mutation.general && all->unique && is_inside(all);
-    if (all->mended && (all->mended_there || !other)) {
-        say_mending(all, look, verdict);
+    if (all->mended_twice || (all->mended && (all->mended_there || !other))) {
+        say_mending(all, &all->mending, verdict);
+        if (all->mended_twice)
+            say_mending(all, &all->second, verdict);
     } else {
         if (all->place_node)
             derivation_place(all, all->place_stage, all->place_node, look, sizeof look);
@@ -349,31 +337,6 @@ static void say(Derivation *all, Verdict *verdict)
              verdict->mistake_count > 1 ? verdict->mistakes[1].name : "");
 }
 
-/* All mutants of both stages of the base. */
-static void mutate(Derivation *all)
-{
-    for (int stage = GLSL_FRAGMENT; stage >= GLSL_VERTEX; stage--) {
-        all->stage = (GlslStage)stage;
-        mutations_each(all->base[stage]->tree, all->numbers, all->number_count, try_mutant, all);
-    }
-}
-
-/* Two mutations: of those that explain some points more than none, each with all others. */
-static void mutate_twice(Derivation *all)
-{
-    for (int i = 0; i < all->nearest_count && !all->best.text && all->tried < MOST; i++) {
-        PointShader shader;
-        const Found *first = &all->nearest[i];
-        if (!open_found(all, first, &shader))
-            continue;
-        all->first = first;
-        all->base[first->stage] = &shader;
-        mutate(all);
-        all->base[first->stage] = &all->right[first->stage];
-        point_shader_close(&shader);
-    }
-}
-
 bool derive_use_right(Derivation *all, const char *ending, LitAt lit)
 {
     right_close(all);
@@ -381,27 +344,42 @@ bool derive_use_right(Derivation *all, const char *ending, LitAt lit)
         return false;
     right_run(all, lit);
     sort_points(all);
-    for (int i = 0; i < 2; i++)
-        all->base[i] = &all->right[i];
-    distance(all, all->base[0], all->base[1], &all->like);
     return true;
 }
 
-/* One mutation of each right program, or two. */
-static bool search(Derivation *all, int count)
+static const char *const ENDINGS[] = {"_apart", ""};
+
+/* One mutation of each right program. */
+static bool search(Derivation *all)
 {
-    static const char *const ENDINGS[] = {"_apart", ""};
     for (int i = 0; i < 4 && !all->best.text; i++) {
         const LitAt lit = i % 2 ? LIT_AT_POINTS : LIT_AT_VERTICES;
         /* Where it computes what is right, it is wrong by what is undefined, or by precision. */
         if ((i % 2 && !all->lab->either) || !derive_use_right(all, ENDINGS[i / 2], lit) ||
             all->wrong_by <= 4 * EQUAL)
             continue;
-        mutate(all);
-        if (count == 2 && !all->best.text)
-            mutate_twice(all);
+        for (int stage = GLSL_FRAGMENT; stage >= GLSL_VERTEX; stage--) {
+            all->stage = (GlslStage)stage;
+            mutations_each(all->right[stage].tree, all->numbers, all->number_count, try_mutant,
+                           all);
+        }
     }
     return all->best.text;
+}
+
+/* Two of the right program that is nearest. Of lab 10's sphere normals and places are the same, so
+ * that two changes explain too much. */
+static bool search_two(Derivation *all)
+{
+    double apart[2] = {INFINITY, INFINITY};
+    for (int i = 0; i < 2; i++)
+        if (derive_use_right(all, ENDINGS[i], LIT_NEAREST) && all->wrong_by > 4 * EQUAL)
+            apart[i] = all->nearest_right;
+    if (all->lab->budget || !derive_use_right(all, ENDINGS[apart[0] >= apart[1]], LIT_NEAREST) ||
+        !two_find(all, false))
+        return false;
+    find_place(all, &all->second);
+    return true;
 }
 
 /* The change that makes a right program as wrong, and that which makes the submission right; then
@@ -413,17 +391,15 @@ static bool explain(Derivation *all, Verdict *verdict)
         return false;
     right_run_all(all);
     take_right_numbers(all);
-    if (search(all, 1))
+    /* No shadow, or nothing else: that many changes do says nothing. */
+    const bool blind = derivation_wastes_map(all);
+    if (!blind && search(all))
         find_place(all, &all->best);
     if (mend_find(all) || all->best.text ||
         (derive_use_right(all, "_apart", LIT_NEAREST) && at_vertices_explain(all, verdict)) ||
         (derive_use_right(all, "", LIT_NEAREST) && at_vertices_explain(all, verdict)))
         return true;
-    /* Of lab 10's sphere normals and places are the same, so that two changes explain too much. */
-    if (all->lab->budget || !search(all, 2))
-        return false;
-    find_place(all, &all->best);
-    return true;
+    return two_find(all, true) || (!blind && search_two(all));
 }
 
 bool derive_mistake(Derivation *all, Verdict *verdict)

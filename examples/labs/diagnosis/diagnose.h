@@ -37,4 +37,10 @@ void symptoms_describe(const LabPictures *pictures, bool moved, Verdict *verdict
 bool diagnose(const LabPictures *pictures, const SubmissionFiles *files, Verdict *verdict,
               Message *message);
 
+/* Adds a symptom to a right submission that is right by chance: where it takes a power of a
+ * negative number, or another number that is undefined. *wrong: a mistake is added, because it
+ * reads beyond an array. */
+bool undefined_warn(const LabPictures *pictures, const SubmissionFiles *files, Verdict *verdict,
+                    bool *wrong, Message *message);
+
 #endif

@@ -12,23 +12,17 @@
 #include <string.h>
 
 /* In `right` a bit for each right program that it may still be. */
-static bool is_right(Derivation *all, PointShader *const pair[2], int *like)
+bool mend_is_right(Derivation *all, PointShader *const pair[2])
 {
     unsigned right = (1u << all->right_count) - 1;
-    *like = 0;
-    for (int i = 0; i < all->points.count && (right || i < FIRST_POINTS); i++) {
+    for (int i = 0; i < all->points.count && right; i++) {
         const int point = all->order[i];
         double numbers[POINT_NUMBERS];
-        bool any = false;
         points_run(&all->points, pair[0], pair[1], point, numbers);
         for (int k = 0; k < all->right_count; k++) {
             const bool same = points_apart(numbers, all->rights[k][point]) <= DERIVATION_EQUAL;
-            any |= same;
             right &= same ? ~0u : ~(1u << k);
         }
-        *like += any && i < FIRST_POINTS;
-        if (i == HOPELESS_POINTS && *like == 0) /* hopeless */
-            return false;
     }
     return right;
 }
@@ -63,6 +57,15 @@ static int compare(const Derivation *all, const Found *a, const Found *b)
                : (int)strlen(a->mutation.was) - (int)strlen(b->mutation.was);
 }
 
+bool mend_open(const Derivation *all, const char *text, bool own, PointShader *shader)
+{
+    char *whole = own ? right_declare(all->undeclared[all->stage], text) : NULL;
+    const bool opened = point_shader_open(shader, whole ? whole : text, all->stage);
+    shader->at_once = !own && all->stage == GLSL_VERTEX && all->right[0].at_once;
+    free(whole);
+    return opened;
+}
+
 static bool try_change(void *context, const Mutation *mutation, const char *text)
 {
     Derivation *all = context;
@@ -70,13 +73,10 @@ static bool try_change(void *context, const Mutation *mutation, const char *text
     Found found = {.mutation = *mutation, .stage = all->stage};
     if (all->mended && compare(all, &found, &all->mending) >= 0)
         return true;
-    char *whole = right_declare(all->undeclared[all->stage], text);
-    const bool opened = point_shader_open(&shader, whole, all->stage);
-    free(whole);
-    if (!opened)
+    if (!mend_open(all, text, true, &shader))
         return true;
     pair[all->stage] = &shader;
-    if (is_right(all, pair, &found.like)) {
+    if (mend_is_right(all, pair)) {
         all->mending = found;
         all->mended = true;
     }

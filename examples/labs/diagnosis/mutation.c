@@ -61,15 +61,41 @@ static void set_mark(GlslNode *node, int mark)
         .kind = GLSL_NAME, .symbol = mark, .type = was.type, .next = was.next, .place = was.place};
 }
 
+static int add_mark(GlslTree *tree, const char *name)
+{
+    *(GlslSymbol *)memory_add(&tree->symbols, &tree->symbol_count, &tree->symbol_room,
+                              sizeof(GlslSymbol)) = (GlslSymbol){.name = name};
+    return tree->symbol_count - 1;
+}
+
+/* Of a statement its expression. */
+static GlslNode *target_of(GlslTree *tree, int node)
+{
+    const GlslNode *at = &tree->nodes[node];
+    return &tree->nodes[at->kind == GLSL_EXPRESSION ? at->first : node];
+}
+
+void mutation_put(GlslTree *tree, int node, const char *put, GlslNode *was)
+{
+    GlslNode *target = target_of(tree, node);
+    *was = *target;
+    set_mark(target, add_mark(tree, put[0] ? put : "0")); /* left out: 0; */
+}
+
+void mutation_take_back(GlslTree *tree, int node, const GlslNode *was)
+{
+    *target_of(tree, node) = *was;
+    tree->symbol_count--;
+}
+
 /* Prints the tree with a mark for the node. */
 static bool cut(Maker *maker, int mark)
 {
-    GlslNode *node = &maker->tree->nodes[maker->node];
-    const int target = node->kind == GLSL_EXPRESSION ? node->first : maker->node;
-    const GlslNode was = maker->tree->nodes[target];
-    set_mark(&maker->tree->nodes[target], mark);
+    GlslNode *target = target_of(maker->tree, maker->node);
+    const GlslNode was = *target;
+    set_mark(target, mark);
     char *text = glsl_print(maker->tree, maker->tree->root);
-    maker->tree->nodes[target] = was;
+    *target = was;
     char *at = strstr(text, MARK);
     if (at) {
         maker->before = memory_copy(text, (size_t)(at - text));
@@ -132,15 +158,19 @@ static void fill(const Maker *maker, const char *form, bool grouped, char *text,
     text[0] = '\0';
     for (const char *at = form; *at && used + 1 < size; at++) {
         const char *put = NULL;
-        char one[2] = {*at, '\0'};
         if (*at == '$' && at[1] >= '0' && at[1] <= '9')
             put = maker->operands[*++at - '0'];
         else if (*at == '@')
             put = maker->name;
         else if (*at == '#')
             put = maker->number;
-        const bool group = put && grouped && is_compound(put);
-        used += (size_t)snprintf(text + used, size - used, group ? "(%s)" : "%s", put ? put : one);
+        if (!put) {
+            text[used++] = *at;
+            text[used] = '\0';
+            continue;
+        }
+        used += (size_t)snprintf(text + used, size - used,
+                                 grouped && is_compound(put) ? "(%s)" : "%s", put);
     }
 }
 
@@ -167,10 +197,12 @@ static void make(Maker *maker, int rule)
     /* A statement is followed by its semicolon; within an expression anything is grouped. */
     const GlslNode *node = &maker->tree->nodes[maker->node];
     const bool whole = node->kind == GLSL_EXPRESSION || node->kind == GLSL_ASSIGN;
-    char *text = memory_format(whole || !is_compound(by) ? "%s%s%s" : "%s(%s)%s", maker->before, by,
-                               maker->after);
+    char *put = memory_format(whole || !is_compound(by) ? "%s" : "(%s)", by);
+    char *text = memory_format("%s%s%s", maker->before, put, maker->after);
+    mutation.put = put;
     maker->ended = !maker->take(maker->context, &mutation, text);
     free(text);
+    free(put);
 }
 
 /* What may stand for a value of this type: other variables, their elements and their colours. */
@@ -181,7 +213,6 @@ static int names_of(const GlslTree *tree, int type, char names[MAX_NAMES][NAME_S
     for (int i = 1; i < tree->symbol_count; i++) {
         const GlslSymbol *symbol = &tree->symbols[i];
         if (symbol->kind != GLSL_VARIABLE || symbol->built_in || !symbol->name[0] ||
-            strcmp(symbol->name, MARK) == 0 ||
             (tree->stage == GLSL_VERTEX && symbol->storage == GLSL_VARYING)) /* not set yet */
             continue;
         const bool element = tree->types[symbol->type].element == type;
@@ -281,8 +312,6 @@ void mutations_each(GlslTree *tree, const double *numbers, int count, MutationTa
 {
     Maker maker = {
         .tree = tree, .numbers = numbers, .number_count = count, .take = take, .context = context};
-    *(GlslSymbol *)memory_add(&tree->symbols, &tree->symbol_count, &tree->symbol_room,
-                              sizeof(GlslSymbol)) =
-        (GlslSymbol){.name = MARK, .kind = GLSL_VARIABLE};
-    walk(&maker, tree->root, tree->symbol_count - 1);
+    walk(&maker, tree->root, add_mark(tree, MARK));
+    tree->symbol_count--;
 }

@@ -18,6 +18,7 @@ typedef struct Mutation {
     char was[MUTATION_TEXT], by[MUTATION_TEXT]; /* the node's text, and what is there instead */
     char
         mends[MUTATION_TEXT]; /* the name of the mistake in a wrong text that becomes right by it */
+    const char *put;          /* all of `by`, in parentheses if it has to be */
     const char *sentence;     /* what is wrong, or "" */
     int rank;                 /* of two that are as near, the lower is named */
     bool likely;              /* of mutation_likely.def */
@@ -27,8 +28,13 @@ typedef struct Mutation {
 /* Gets each mutant's text. False: no more. */
 typedef bool MutationTake(void *context, const Mutation *mutation, const char *text);
 
+/* Puts a mutation's text where its node is, so that mutants have both; `was`: what was there. What
+ * is put has to live until it is taken back. */
+void mutation_put(GlslTree *tree, int node, const char *put, GlslNode *was);
+void mutation_take_back(GlslTree *tree, int node, const GlslNode *was);
+
 /* All mutants of a valid tree. `numbers` are tried where a number may be wrong. `tree` is as it was
- * afterwards, with one symbol more. */
+ * afterwards. */
 void mutations_each(GlslTree *tree, const double *numbers, int count, MutationTake *take,
                     void *context);
 

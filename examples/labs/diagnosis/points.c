@@ -11,7 +11,7 @@
 #include <string.h>
 
 /* Shadows cover little. */
-enum { OF_OBJECT = 24, OF_OBJECT_IN_SHADOW = 40, TRIES = 40 * OF_OBJECT_IN_SHADOW };
+enum { OF_OBJECT = 24, OF_OBJECT_IN_SHADOW = 100, TRIES = 40 * OF_OBJECT_IN_SHADOW };
 
 static unsigned char *read_map(const LabShadowMap *map)
 {
@@ -36,10 +36,11 @@ static const float *value_of(const PointSetting *setting, const char *name)
     return NULL;
 }
 
-static void multiply(const float m[16], const double v[3], double clip[4])
+static void multiply(const float m[16], const float v[3], double clip[4])
 {
     for (int i = 0; i < 4; i++)
-        clip[i] = m[i] * v[0] + m[4 + i] * v[1] + m[8 + i] * v[2] + m[12 + i];
+        clip[i] =
+            (double)m[i] * v[0] + (double)m[4 + i] * v[1] + (double)m[8 + i] * v[2] + m[12 + i];
 }
 
 /* Counter-clockwise, as the eye sees it. */
@@ -56,24 +57,68 @@ static bool faces_eye(const PointSetting *setting, const Point *point)
     const float *matrix = value_of(setting, "u_MvpMatrix");
     double clip[POINT_CORNERS][4];
     for (int i = 0; i < POINT_CORNERS; i++) {
-        const float *p = point->corners[i].position;
-        multiply(matrix, (double[]){p[0], p[1], p[2]}, clip[i]);
+        multiply(matrix, point->corners[i].position, clip[i]);
         if (clip[i][3] <= 0)
             return false;
     }
     return is_front(clip);
 }
 
+static MeshVertex middle(const Point *point)
+{
+    MeshVertex vertex = {{0}, {0}};
+    for (int i = 0; i < POINT_CORNERS; i++) {
+        for (int k = 0; k < 3; k++) {
+            vertex.position[k] += (float)(point->weights[i] * point->corners[i].position[k]);
+            vertex.normal[k] += (float)(point->weights[i] * point->corners[i].normal[k]);
+        }
+    }
+    return vertex;
+}
+
 void points_place(const Points *points, int point, double place[3])
 {
     const Point *at = &points->items[point];
-    double middle[3] = {0}, clip[4];
-    for (int i = 0; i < POINT_CORNERS; i++)
-        for (int k = 0; k < 3; k++)
-            middle[k] += at->weights[i] * at->corners[i].position[k];
-    multiply(value_of(&points->settings[at->setting], "u_MvpMatrix"), middle, clip);
+    const MeshVertex center = middle(at);
+    double clip[4];
+    multiply(value_of(&points->settings[at->setting], "u_MvpMatrix"), center.position, clip);
     for (int k = 0; k < 3; k++)
         place[k] = clip[k] / clip[3];
+}
+
+/* Rounds down, as a texture that is not filtered does, and ends at its edges. */
+static int texel_at(double coordinate)
+{
+    const double at = floor(coordinate * LAB_SHADOW_MAP_SIZE);
+    return !(at > 0) ? 0 : at >= LAB_SHADOW_MAP_SIZE ? LAB_SHADOW_MAP_SIZE - 1 : (int)at;
+}
+
+static const unsigned char *texel_of(const PointSetting *setting, double x, double y)
+{
+    return setting->map + 4 * ((size_t)texel_at(y) * LAB_SHADOW_MAP_SIZE + (size_t)texel_at(x));
+}
+
+/* Whether some texels away there is another surface before the light: where filters and biases, all
+ * of them right, differ. */
+static bool is_at_edge_of_shadow(const PointSetting *setting, const Point *point)
+{
+    static const double REACH = 6.0 / LAB_SHADOW_MAP_SIZE, JUMP = 0.01;
+    const MeshVertex center = middle(point);
+    double world[4], clip[4];
+    bool lit = false, dark = false;
+    multiply(value_of(setting, "u_ModelMatrix"), center.position, world);
+    const float place[3] = {(float)world[0], (float)world[1], (float)world[2]};
+    multiply(value_of(setting, "u_LightMatrix"), place, clip);
+    for (int i = 0; i < 9; i++) {
+        const unsigned char *texel =
+            texel_of(setting, 0.5 * clip[0] / clip[3] + 0.5 + (i % 3 - 1) * REACH,
+                     0.5 * clip[1] / clip[3] + 0.5 + (int)(i / 3 - 1) * REACH);
+        const double nearest = texel[0] / 255.0 + texel[1] / 65025.0;
+        const bool hidden = nearest < 0.5 * clip[2] / clip[3] + 0.5 - JUMP;
+        dark |= hidden;
+        lit |= !hidden;
+    }
+    return lit && dark;
 }
 
 static void add_points(Points *points, const Mesh *mesh, Random *random)
@@ -90,7 +135,8 @@ static void add_points(Points *points, const Mesh *mesh, Random *random)
         }
         for (int i = 0; i < POINT_CORNERS; i++)
             point.weights[i] /= sum;
-        if (!points->lab->two_sided && !faces_eye(&points->settings[setting], &point))
+        if ((!points->lab->two_sided && !faces_eye(&points->settings[setting], &point)) ||
+            (points->lab->shadow && is_at_edge_of_shadow(&points->settings[setting], &point)))
             continue;
         *(Point *)memory_add(&points->items, &points->count, &points->room, sizeof(Point)) = point;
         found++;
@@ -188,28 +234,21 @@ void point_shader_close(PointShader *shader)
         glsl_tree_free(shader->tree);
     free(shader->outputs);
     free(shader->done);
+    free(shader->bound);
     *shader = (PointShader){.setting = -1};
-}
-
-/* Rounds down, as a texture that is not filtered does, and ends at its edges. */
-static int texel_at(double coordinate)
-{
-    const double at = floor(coordinate * LAB_SHADOW_MAP_SIZE);
-    return !(at > 0) ? 0 : at >= LAB_SHADOW_MAP_SIZE ? LAB_SHADOW_MAP_SIZE - 1 : (int)at;
 }
 
 static void look_up(void *context, int unit, int function, const double *coordinates, int count,
                     double color[4])
 {
-    const PointSetting *setting = context;
+    PointSetting *setting = context;
     const bool projected = function == GLSL_TEXTURE_2D_PROJ || function == GLSL_TEXTURE_2D_PROJ_LOD;
     const double by = projected ? coordinates[count - 1] : 1;
     (void)unit;
     if (!setting->map)
         return;
-    const unsigned char *texel =
-        setting->map + 4 * ((size_t)texel_at(coordinates[1] / by) * LAB_SHADOW_MAP_SIZE +
-                            (size_t)texel_at(coordinates[0] / by));
+    setting->map_read = true;
+    const unsigned char *texel = texel_of(setting, coordinates[0] / by, coordinates[1] / by);
     for (int i = 0; i < 4; i++)
         color[i] = texel[i] / 255.0;
 }
@@ -240,21 +279,35 @@ static void set_uniform(const Points *points, PointShader *shader, const GlslVar
     }
 }
 
+/* All settings have the same values, in the same order. */
+static void bind(const PointSetting *setting, PointShader *shader)
+{
+    const GlslCode *code = shader->code;
+    shader->bound = memory_new((size_t)code->variable_count + 1, sizeof(int));
+    for (int i = 0; i < code->variable_count; i++) {
+        shader->bound[i] = -1;
+        for (int k = 0; code->variables[i].storage == GLSL_UNIFORM && k < setting->value_count; k++)
+            if (strcmp(setting->values[k].name, code->variables[i].name) == 0)
+                shader->bound[i] = k;
+        shader->lit |= is_left_out(&(Points){.without = ~0}, code->variables[i].name, 0);
+    }
+}
+
 static void use_setting(const Points *points, PointShader *shader, int number)
 {
     PointSetting *setting = &points->settings[number];
-    if (shader->setting == number && shader->without == points->without)
+    if (shader->setting == number && (shader->without == points->without || !shader->lit))
         return;
     shader->setting = number;
     shader->without = points->without;
     shader->run->texture = look_up;
     shader->run->context = setting;
-    for (int i = 0; i < shader->code->variable_count; i++) {
-        const GlslVariable *variable = &shader->code->variables[i];
-        for (int k = 0; variable->storage == GLSL_UNIFORM && k < setting->value_count; k++)
-            if (strcmp(setting->values[k].name, variable->name) == 0)
-                set_uniform(points, shader, variable, &setting->values[k]);
-    }
+    if (!shader->bound)
+        bind(setting, shader);
+    for (int i = 0; i < shader->code->variable_count; i++)
+        if (shader->bound[i] >= 0)
+            set_uniform(points, shader, &shader->code->variables[i],
+                        &setting->values[shader->bound[i]]);
 }
 
 static bool is_called(const char *name, const char *own, const char *usual)
@@ -298,20 +351,8 @@ static void prepare(const Points *points, PointShader *shader)
             memory_new((size_t)(points->count * POINT_CORNERS * shader->width), sizeof(double));
         shader->done = memory_new((size_t)points->count, sizeof(bool));
     }
-    if (shader->setting >= 0 && shader->without != points->without)
+    if (shader->setting >= 0 && shader->without != points->without && shader->lit)
         memset(shader->done, 0, (size_t)points->count * sizeof(bool));
-}
-
-static MeshVertex middle(const Point *point)
-{
-    MeshVertex vertex = {{0}, {0}};
-    for (int i = 0; i < POINT_CORNERS; i++) {
-        for (int k = 0; k < 3; k++) {
-            vertex.position[k] += (float)(point->weights[i] * point->corners[i].position[k]);
-            vertex.normal[k] += (float)(point->weights[i] * point->corners[i].normal[k]);
-        }
-    }
-    return vertex;
 }
 
 static void run_corners(const Points *points, PointShader *shader, int number)

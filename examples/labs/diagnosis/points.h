@@ -20,7 +20,7 @@ typedef struct PointSetting {
     int value_count, width, height;
     float color[4];
     unsigned char *map; /* lab 11: texels, the lowest row first; of all objects of a scene */
-    bool owns_map;
+    bool owns_map, map_read;
 } PointSetting;
 
 typedef struct Point {
@@ -50,6 +50,8 @@ typedef struct PointShader {
     GlslCode *code;
     GlslRun *run;
     int setting, without; /* whose uniforms are set */
+    int *bound;           /* by variable: which of a setting's values it has; -1: none */
+    bool lit;             /* it has one that may be left out */
     /* Of a vertex shader: what it gave at each point's corners, gl_Position first. */
     double *outputs;
     bool *done;

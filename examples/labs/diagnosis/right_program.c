@@ -144,7 +144,7 @@ static bool try_right(void *context, const Mutation *mutation, const char *text)
     Derivation *all = context;
     PointShader pair[2] = {all->right[0], {.setting = -1}};
     const double number = atof(mutation->by + (mutation->by[0] == '('));
-    if (!is_free(all->lab, mutation->was, number) ||
+    if (!is_free(all->lab, mutation->was, number) || expected(all, number) == 0 ||
         !point_shader_open(&pair[1], text, GLSL_FRAGMENT))
         return true;
     const double apart = derivation_run(all, pair, all->exact, all->wanted) - expected(all, number);
@@ -227,10 +227,6 @@ void right_close(Derivation *all)
 {
     for (int i = 0; i < 2; i++)
         point_shader_close(&all->right[i]);
-    for (int i = 0; i < all->nearest_count; i++)
-        free(all->nearest[i].text);
     free(all->nearest_text);
     all->nearest_text = NULL;
-    all->nearest_count = 0;
-    all->first = NULL;
 }

@@ -1,10 +1,13 @@
-/* A black picture says nothing about where it is drawn, so pictures of other mistakes match it. The
+/* Only what is wrong is diagnosed, and from its numbers: first what is undefined, then what is
+ * derived from a right program, then, without a name, which part is wrong.
+ *
+ * A black picture says nothing about where it is drawn, so pictures of other mistakes match it. The
  * evaluator knows whether its places are right, and which value is the first that is 0, or no
  * number. */
-#include "labs/diagnosis/undefined.h"
+#include "labs/diagnosis/diagnose.h"
 
 #include "base/memory.h"
-#include "labs/diagnosis/derive.h"
+#include "labs/diagnosis/derivation.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -173,7 +176,8 @@ static bool explain_missing(Derivation *all, Verdict *verdict)
     return false;
 }
 
-bool undefined_explain(Derivation *all, Verdict *verdict)
+/* What is undefined, then what is derived. */
+static bool explain(Derivation *all, Verdict *verdict)
 {
     Facts facts;
     char place[VERDICT_SENTENCE_SIZE];
@@ -191,6 +195,20 @@ bool undefined_explain(Derivation *all, Verdict *verdict)
               "All is black though all is in its place: a colour is 0, or is multiplied by 0.",
               place);
     return zero;
+}
+
+bool diagnose(const LabPictures *pictures, const SubmissionFiles *files, Verdict *verdict,
+              Message *message)
+{
+    Derivation *all = derivation_open(pictures, files, message);
+    if (!all && message->text[0])
+        return false;
+    if (all && !explain(all, verdict))
+        wrong_part_describe(all, verdict);
+    derivation_close(all);
+    if (!verdict->message[0])
+        snprintf(verdict->message, sizeof verdict->message, "Unknown mistake");
+    return true;
 }
 
 bool undefined_warn(const LabPictures *pictures, const SubmissionFiles *files, Verdict *verdict,

@@ -1,7 +1,7 @@
 /* Light is a sum, so its terms can be seen one by one without knowing the text: what a uniform
  * switches off is left out of both programs. Then each value that the submission assigns is
  * replaced by each value of the right program: if one makes all right, the mistake is there. */
-#include "labs/diagnosis/derive.h"
+#include "labs/diagnosis/derivation.h"
 
 #include "base/memory.h"
 
@@ -13,15 +13,9 @@
 /* That of pictures; and the share of points that may differ, at edges of shadows. */
 static const double TOLERANCE = 2.5 / 255, MAY_DIFFER = 0.03;
 
-enum { UNSEEN, RIGHT, WRONG, MAX_TERMS = 7 };
+enum { UNSEEN, RIGHT, WRONG };
 
-/* What of the light is seen with `without` and not with `beside`. */
-typedef struct Term {
-    char name[40];
-    int without, beside;
-} Term;
-
-static int list_terms(const Lab *lab, Term terms[MAX_TERMS])
+int wrong_part_list(const Lab *lab, Term terms[MAX_TERMS])
 {
     static const int LIGHTS = POINTS_NO_FIRST | POINTS_NO_SECOND;
     static const int NOTHING = LIGHTS | POINTS_NO_AMBIENT | POINTS_NO_SPECULAR;
@@ -216,7 +210,7 @@ void wrong_part_describe(Derivation *all, Verdict *verdict)
     if (!derive_use_right(all, "", LIT_NEAREST) || all->wrong_by <= 4 * DERIVATION_EQUAL)
         return;
     char right[256], wrong[256], place[VERDICT_SENTENCE_SIZE] = "";
-    const int count = list_terms(all->lab, terms);
+    const int count = wrong_part_list(all->lab, terms);
     for (int i = 0; i < count; i++)
         states[i] = judge_term(all, &terms[i]);
     for (int i = count; i-- > 0;)

@@ -1,0 +1,298 @@
+/* Two changes at once, of the submission until it is right or of the right program until it is as
+ * wrong. Light is a sum, so one of the two makes some of its terms, each seen alone, equal to the
+ * other program's, or the colours nearer, or computes a value that the other has. What does most of
+ * that is tried with a second change: with all that do something, too, then with any.
+ */
+#include "labs/diagnosis/derivation.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    KEPT = 200,
+    SAME = 3,
+    FIRSTS = 60,
+    WITH_ANY = 9,
+    MOST_PAIRS = 4000, /* half a second */
+    MOST_ANY = 12000,
+    SEEN = 6,
+    MAX_VIEWS = 1 + MAX_TERMS,
+    TRACES = 2
+};
+
+/* A change that does something. */
+typedef struct Step {
+    Mutation mutation;
+    GlslStage stage;
+    char *text, *put;
+    double score, print; /* print: steps that compute the same have the same */
+} Step;
+
+typedef struct Search {
+    Derivation *all;
+    bool mends;
+    PointShader *base, *goal; /* what is changed, until it computes what */
+    const double *numbers;    /* that changes try */
+    int number_count;
+    Step steps[KEPT + 1];
+    int step_count, first, pairs, best_rank;
+    bool any;              /* each second change is tried */
+    PointShader *opened;   /* the shader with the first step */
+    Term views[MAX_VIEWS]; /* all of the light; then its terms */
+    int view_count;
+    double wanted[MAX_VIEWS][SEEN][POINT_NUMBERS], was[MAX_VIEWS][SEEN];
+    Values *values; /* of the goal, TRACES points; then room */
+    int shared;     /* of these the base computes */
+} Search;
+
+/* Runs a pair in all views: how many are as wanted, and by how much nearer the others are than the
+ * base's; and what equal pairs have in common. */
+static double look(Search *search, PointShader *const pair[2], double *print)
+{
+    Derivation *all = search->all;
+    double score = 0, numbers[POINT_NUMBERS];
+    *print = 0;
+    for (int v = 0; v < search->view_count; v++) {
+        all->points.without = search->views[v].without;
+        for (int i = 0; i < SEEN; i++) {
+            points_run(&all->points, pair[0], pair[1], all->order[i], numbers);
+            const double apart = points_apart(numbers, search->wanted[v][i]);
+            const double was = search->was[v][i];
+            for (int k = 0; k < POINT_NUMBERS; k++)
+                *print += numbers[k] * (1 + k + 7 * i + 43 * v);
+            score += (apart <= DERIVATION_EQUAL) - (was <= DERIVATION_EQUAL);
+            score += was > DERIVATION_EQUAL ? 0.5 * fmax(-1, (was - apart) / was) : 0;
+        }
+    }
+    all->points.without = 0;
+    return score;
+}
+
+/* How many of the goal's values a pair computes. */
+static int count_shared(Search *search, PointShader *const pair[2])
+{
+    Values *values = &search->values[TRACES];
+    int shared = 0;
+    for (int i = 0; i < TRACES; i++) {
+        values_trace(&search->all->points, pair[0], pair[1], search->all->order[2 * i], values);
+        shared += values_shared(&search->values[i], values);
+    }
+    return shared;
+}
+
+static void begin(Search *search)
+{
+    Derivation *all = search->all;
+    PointShader *base = search->base, *goal = search->goal;
+    search->view_count = 1 + wrong_part_list(all->lab, &search->views[1]);
+    for (int v = 0; v < search->view_count; v++) {
+        all->points.without = search->views[v].without;
+        for (int i = 0; i < SEEN; i++) {
+            double numbers[POINT_NUMBERS], *wanted = search->wanted[v][i];
+            points_run(&all->points, &goal[0], &goal[1], all->order[i], wanted);
+            points_run(&all->points, &base[0], &base[1], all->order[i], numbers);
+            search->was[v][i] = points_apart(numbers, wanted);
+        }
+    }
+    all->points.without = 0;
+    search->values = memory_new(TRACES + 1, sizeof(Values));
+    for (int i = 0; i < TRACES; i++)
+        values_trace(&all->points, &goal[0], &goal[1], all->order[2 * i], &search->values[i]);
+    search->shared = count_shared(search, (PointShader *[]){&base[0], &base[1]});
+}
+
+static void close_step(Step *step)
+{
+    free(step->text);
+    free(step->put);
+}
+
+static bool is_better(const Step *a, const Step *b)
+{
+    return a->score != b->score ? a->score > b->score : a->mutation.rank < b->mutation.rank;
+}
+
+/* Of steps that compute the same where it was looked, and may not elsewhere, the likeliest; of the
+ * others the best. */
+static void keep(Search *search, const Step *step)
+{
+    int at = search->step_count, same = 0, worst = -1;
+    for (int i = 0; i < search->step_count; i++) {
+        const Step *other = &search->steps[i];
+        if (fabs(other->print - step->print) > 1e-9 * (1 + fabs(step->print)))
+            continue;
+        same++;
+        if (worst < 0 || other->mutation.rank >= search->steps[worst].mutation.rank)
+            worst = i;
+    }
+    if (same == SAME && search->steps[worst].mutation.rank <= step->mutation.rank)
+        return;
+    if (same == SAME) {
+        at = worst;
+        close_step(&search->steps[at]);
+    } else {
+        search->step_count++;
+        for (; at > 0 && is_better(step, &search->steps[at - 1]); at--)
+            search->steps[at] = search->steps[at - 1];
+    }
+    search->steps[at] = *step;
+    search->steps[at].text = memory_text(step->text);
+    search->steps[at].put = memory_text(step->put);
+    if (search->step_count > KEPT)
+        close_step(&search->steps[--search->step_count]);
+}
+
+static bool open_changed(const Search *search, const char *text, PointShader *shader)
+{
+    return mend_open(search->all, text, search->mends, shader);
+}
+
+static bool try_first(void *context, const Mutation *mutation, const char *text)
+{
+    Search *search = context;
+    Derivation *all = search->all;
+    PointShader shader, *pair[2] = {&search->base[0], &search->base[1]};
+    if (!open_changed(search, text, &shader))
+        return true;
+    pair[all->stage] = &shader;
+    Step step = {.mutation = *mutation,
+                 .stage = all->stage,
+                 .text = (char *)text,
+                 .put = (char *)mutation->put};
+    step.score = look(search, pair, &step.print);
+    step.score += 1.5 * (count_shared(search, pair) - search->shared);
+    if (step.score > 0.2)
+        keep(search, &step);
+    point_shader_close(&shader);
+    return true;
+}
+
+/* Whether it is among the steps, and was not the first of a pair yet. A step whose text holds the
+ * first's is another than alone. */
+static bool is_step(const Search *search, const Mutation *mutation)
+{
+    const Step *first = &search->steps[search->first];
+    const bool holds = search->all->stage == first->stage && strstr(mutation->put, first->put);
+    for (int i = holds ? 0 : search->first + 1; i < search->step_count; i++) {
+        const Mutation *other = &search->steps[i].mutation;
+        if (search->steps[i].stage == search->all->stage && other->node == mutation->node &&
+            other->rank == mutation->rank && (holds || strcmp(other->by, mutation->by) == 0))
+            return true;
+    }
+    return false;
+}
+
+/* Whether it has the names of the pair that was found. */
+static bool is_found(const Search *search, const Mutation *second)
+{
+    const char *first = search->steps[search->first].mutation.mends;
+    const char *a = search->all->mending.mutation.mends, *b = search->all->second.mutation.mends;
+    return (strcmp(first, a) == 0 && strcmp(second->mends, b) == 0) ||
+           (strcmp(first, b) == 0 && strcmp(second->mends, a) == 0);
+}
+
+static void take_pair(Search *search, const Mutation *second, int rank, const char *text)
+{
+    Derivation *all = search->all;
+    const Step *first = &search->steps[search->first];
+    if (all->two_found && rank == search->best_rank) {
+        all->unique &= is_found(search, second);
+        return;
+    }
+    free(all->mending.text);
+    free(all->second.text);
+    all->unique = all->two_found = true;
+    search->best_rank = rank;
+    all->mending = (Found){
+        .mutation = first->mutation, .stage = first->stage, .text = memory_text(first->text)};
+    all->second = (Found){.mutation = *second,
+                          .stage = all->stage,
+                          .first = &all->mending,
+                          .text = memory_text(text)};
+}
+
+static bool try_second(void *context, const Mutation *mutation, const char *text)
+{
+    Search *search = context;
+    Derivation *all = search->all;
+    const Step *first = &search->steps[search->first];
+    const int rank = first->mutation.rank + mutation->rank;
+    PointShader shader, *pair[2] = {&search->base[0], &search->base[1]};
+    if ((all->two_found && rank > search->best_rank) ||
+        (!search->any && !is_step(search, mutation)))
+        return true;
+    search->pairs++;
+    if (!open_changed(search, text, &shader))
+        return true;
+    pair[first->stage] = search->opened;
+    pair[all->stage] = &shader;
+    if (search->mends ? mend_is_right(all, pair) : derive_is_same(all, pair))
+        take_pair(search, mutation, rank, text);
+    point_shader_close(&shader);
+    return search->pairs < (search->any ? MOST_ANY : MOST_PAIRS);
+}
+
+static void mutate_all(Search *search, GlslStage stage, MutationTake *take)
+{
+    search->all->stage = stage;
+    mutations_each(search->base[stage].tree, search->numbers, search->number_count, take, search);
+}
+
+static void try_pairs(Search *search)
+{
+    Derivation *all = search->all;
+    const Step *first = &search->steps[search->first];
+    GlslTree *tree = search->base[first->stage].tree;
+    PointShader shader;
+    GlslNode was;
+    all->stage = first->stage;
+    if (!open_changed(search, first->text, &shader))
+        return;
+    search->opened = &shader;
+    mutation_put(tree, first->mutation.node, first->put, &was);
+    mutate_all(search, first->stage, try_second);
+    mutation_take_back(tree, first->mutation.node, &was);
+    mutate_all(search, 1 - first->stage, try_second);
+    point_shader_close(&shader);
+}
+
+/* A step that computes what the one before does is not tried with any second. */
+static void try_all_pairs(Search *search, int most)
+{
+    const Step *steps = search->steps;
+    const int end = search->any ? WITH_ANY : FIRSTS;
+    search->pairs = 0;
+    for (int i = 0; i < search->step_count && i < end && search->pairs < most; i++) {
+        search->first = i;
+        if (!search->any || i == 0 || steps[i].score != steps[i - 1].score)
+            try_pairs(search);
+    }
+}
+
+bool two_find(Derivation *all, bool mends)
+{
+    Search *search = memory_new(1, sizeof *search);
+    *search = (Search){.all = all,
+                       .mends = mends,
+                       .base = mends ? all->own : all->right,
+                       .goal = mends ? all->right : all->own,
+                       .numbers = mends ? all->right_numbers : all->numbers,
+                       .number_count = mends ? all->right_number_count : all->number_count};
+    begin(search);
+    for (int stage = GLSL_VERTEX; stage <= GLSL_FRAGMENT; stage++)
+        mutate_all(search, (GlslStage)stage, try_first);
+    try_all_pairs(search, MOST_PAIRS);
+    search->any = true;
+    if (!all->two_found)
+        try_all_pairs(search, MOST_ANY);
+    all->mended_twice = mends && all->two_found;
+    for (int i = 0; i < search->step_count; i++)
+        close_step(&search->steps[i]);
+    free(search->values);
+    free(search);
+    return all->two_found;
+}
