@@ -185,6 +185,8 @@ TEST_WITH(0, a_light_that_is_off_or_black_is_left_out, set_up, NULL)
     world.lights[0].diffuse = RED;
     world.object.front.diffuse = GREEN;
     assert_set("");
+    world.lights[0].diffuse = (Vec3){0, 0, 1};
+    assert_set("");
     world.scene.light_count = 0;
     assert_set("");
 }

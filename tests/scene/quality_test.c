@@ -137,6 +137,29 @@ TEST(lights_at_infinity_keep_direction_and_strength)
     solid_meshes_close(&meshes);
 }
 
+TEST(a_part_has_its_own_lights)
+{
+    QualityParts made;
+    SolidMeshes meshes = {NULL};
+    Object object = OBJECTS[0];
+    object.world_from_object = mat4_translate((Vec3){1, 2, -3});
+    Scene scene = SCENE;
+    scene.objects = &object;
+    scene.object_count = 1;
+    ObjectQuality quality = object_quality_plain(&scene);
+    quality.divisions = 12;
+    quality.far_lights = quality.matte_lights = 1;
+    quality.dark_lights = 2;
+    assert_true(quality_parts_open(&made, &scene, &quality, &meshes, NULL));
+    const Light *lights = made.parts[0].lights;
+    const Vec3 way = lights[0].direction; /* as seen from the object's origin */
+    assert_true(lights[0].kind == LIGHT_DIRECTIONAL && way.x == -1 && way.y == 1 && way.z == 7);
+    assert_true(!lights[0].off && lights[1].off);
+    assert_int_equal(made.parts[0].objects->mesh->vertex_count, 13 * 13);
+    quality_parts_close(&made);
+    solid_meshes_close(&meshes);
+}
+
 /* Seen from +x, the viewer's right is -z. */
 TEST(lights_of_the_viewer_at_infinity_shine_from_the_same_side)
 {
