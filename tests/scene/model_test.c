@@ -56,6 +56,22 @@ static Bytes file(const char *name)
     return bytes;
 }
 
+/* The same, filled with values, which are closed. */
+static Bytes filled(const char *name, TemplateValues *values)
+{
+    char path[64];
+    OutputText form;
+    Bytes bytes = {.size = 0};
+    snprintf(path, sizeof path, "tests/scene/models/%s", name);
+    output_text_open(&form);
+    SUCCEEDS(template_print(path, values, form.file, message));
+    char *made = output_text_close(&form);
+    append(&bytes, made, form.size);
+    free(made);
+    template_close(values);
+    return bytes;
+}
+
 /* model_read of a file with these bytes. */
 static bool read_bytes(const char *name, const Bytes *bytes, Mesh *mesh, Message *message)
 {
@@ -145,21 +161,13 @@ static Bytes binary_ply(void)
 }
 
 /* One tetrahedron, corners at the origin and at 1 on each axis, placed by these nodes: with or
- * without normals. */
+ * without normals, which are not normalized. */
 static Bytes gltf(const char *nodes, const char *attributes)
 {
-    OutputText form;
-    Bytes bytes = {.size = 0};
     TemplateValues *values = template_values();
     template_set(values, "nodes", "%s", nodes);
     template_set(values, "attributes", "%s", attributes);
-    output_text_open(&form);
-    SUCCEEDS(template_print("tests/scene/models/tetrahedron.gltf", values, form.file, message));
-    char *made = output_text_close(&form);
-    append(&bytes, made, form.size);
-    free(made);
-    template_close(values);
-    return bytes;
+    return filled("tetrahedron.gltf", values);
 }
 
 static const char POSITION[] = "\"POSITION\":0";
@@ -262,88 +270,27 @@ TEST(an_stl_file_is_read_as_text_and_as_bytes)
 /* A pyramid whose box has corners (-1, -2, 0) and (1, 2, 4), in every format that has an axis of
  * its own. */
 
-#define CORNERS "-1 -2 0 1 -2 0 1 2 0 -1 2 0 0 0 4"
-#define TRIANGLES "0 2 1 0 3 2 0 1 4 1 2 4 2 3 4 3 0 4"
-
 static const float PYRAMID[5][3] = {{-1, -2, 0}, {1, -2, 0}, {1, 2, 0}, {-1, 2, 0}, {0, 0, 4}};
 static const uint16_t PYRAMID_FACES[6][3] = {{0, 2, 1}, {0, 3, 2}, {0, 1, 4},
                                              {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
 
-/* A chunk's head: its name, and its size with the head. */
-static void append_chunk(Bytes *bytes, uint16_t name, uint32_t size)
-{
-    append(bytes, &name, 2);
-    append(bytes, &size, 4);
-}
-
-static Bytes pyramid_3ds(void)
-{
-    enum { VERTICES = 6 + 2 + 60, FACES = 6 + 2 + 48, MESH = 6 + VERTICES + FACES };
-    const uint16_t vertices = 5, faces = 6, edges = 7;
-    Bytes bytes = {.size = 0};
-    append_chunk(&bytes, 0x4D4D, 6 + 6 + 6 + 2 + MESH);
-    append_chunk(&bytes, 0x3D3D, 6 + 6 + 2 + MESH);
-    append_chunk(&bytes, 0x4000, 6 + 2 + MESH);
-    append(&bytes, "p", 2);
-    append_chunk(&bytes, 0x4100, MESH);
-    append_chunk(&bytes, 0x4110, VERTICES);
-    append(&bytes, &vertices, 2);
-    append_floats(&bytes, PYRAMID[0], 15);
-    append_chunk(&bytes, 0x4120, FACES);
-    append(&bytes, &faces, 2);
-    for (int i = 0; i < 6; i++) {
-        append(&bytes, PYRAMID_FACES[i], 6);
-        append(&bytes, &edges, 2);
-    }
-    return bytes;
-}
-
 static Bytes pyramid_collada(char up)
 {
-    char file[2048];
-    snprintf(
-        file, sizeof file,
-        "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" "
-        "version=\"1.4.1\"><asset><created>2020-01-01T00:00:00Z</created>"
-        "<modified>2020-01-01T00:00:00Z</modified><up_axis>%c_UP</up_axis></asset>"
-        "<library_geometries><geometry id=\"g\"><mesh><source id=\"s\">"
-        "<float_array id=\"a\" count=\"15\">" CORNERS "</float_array><technique_common>"
-        "<accessor source=\"#a\" count=\"5\" stride=\"3\"><param name=\"X\" type=\"float\"/>"
-        "<param name=\"Y\" type=\"float\"/><param name=\"Z\" type=\"float\"/></accessor>"
-        "</technique_common></source><vertices id=\"v\"><input semantic=\"POSITION\" "
-        "source=\"#s\"/></vertices><triangles count=\"6\"><input semantic=\"VERTEX\" "
-        "source=\"#v\" offset=\"0\"/><p>" TRIANGLES "</p></triangles></mesh></geometry>"
-        "</library_geometries><library_visual_scenes><visual_scene id=\"w\"><node id=\"n\">"
-        "<instance_geometry url=\"#g\"/></node></visual_scene></library_visual_scenes>"
-        "<scene><instance_visual_scene url=\"#w\"/></scene></COLLADA>",
-        up);
-    return text(file);
+    TemplateValues *values = template_values();
+    template_set(values, "up", "%c", up);
+    return filled("pyramid.dae", values);
 }
 
 /* All three axes, as exporters write them, or the one that is up alone. */
 static Bytes pyramid_fbx(int axis, int sign, bool all)
 {
-    char file[2048], others[512] = "";
-    if (all)
-        snprintf(others, sizeof others,
-                 "\t\tP: \"FrontAxis\", \"int\", \"Integer\", \"\",%d\n"
-                 "\t\tP: \"FrontAxisSign\", \"int\", \"Integer\", \"\",%d\n"
-                 "\t\tP: \"CoordAxis\", \"int\", \"Integer\", \"\",%d\n"
-                 "\t\tP: \"CoordAxisSign\", \"int\", \"Integer\", \"\",1\n",
-                 (axis + 1) % 3, sign, (axis + 2) % 3);
-    snprintf(file, sizeof file,
-             "; FBX 7.3.0 project file\nFBXHeaderExtension:  {\n\tFBXHeaderVersion: 1003\n"
-             "\tFBXVersion: 7300\n}\nGlobalSettings:  {\n\tVersion: 1000\n\tProperties70:  {\n"
-             "\t\tP: \"UpAxis\", \"int\", \"Integer\", \"\",%d\n"
-             "\t\tP: \"UpAxisSign\", \"int\", \"Integer\", \"\",%d\n%s\t}\n}\n"
-             "Objects:  {\n\tGeometry: 1, \"Geometry::g\", \"Mesh\" {\n\t\tVertices: *15 {\n"
-             "\t\t\ta: -1,-2,0,1,-2,0,1,2,0,-1,2,0,0,0,4\n\t\t}\n"
-             "\t\tPolygonVertexIndex: *18 {\n"
-             "\t\t\ta: 0,2,-2,0,3,-3,0,1,-5,1,2,-5,2,3,-5,3,0,-5\n\t\t}\n\t}\n"
-             "\tModel: 2, \"Model::m\", \"Mesh\" {\n\t\tVersion: 232\n\t}\n}\n"
-             "Connections:  {\n\tC: \"OO\",2,0\n\tC: \"OO\",1,2\n}\n",
-             axis, sign, others);
-    return text(file);
+    TemplateValues *values = template_values();
+    template_set(values, "axis", "%d", axis);
+    template_set(values, "sign", "%d", sign);
+    template_set(values, "front", "%d", (axis + 1) % 3);
+    template_set(values, "side", "%d", (axis + 2) % 3);
+    template_set(values, "all", "%s", all ? "yes" : "");
+    return filled("pyramid.fbx", values);
 }
 
 /* Where the box of the pyramid lies after the axis was turned up. */
@@ -361,7 +308,7 @@ TEST(models_stand_upright)
         ModelUp own;
     } files[] = {
         {"p.stl", stl((const float[3]){0}, PYRAMID, PYRAMID_FACES, 6), MODEL_UP_Z},
-        {"p.3ds", pyramid_3ds(), MODEL_UP_Z},
+        {"p.3ds", file("pyramid.3ds"), MODEL_UP_Z},
         {"p.dae", pyramid_collada('X'), MODEL_UP_X},
         {"p.dae", pyramid_collada('Y'), MODEL_UP_Y},
         {"p.dae", pyramid_collada('Z'), MODEL_UP_Z},

@@ -22,55 +22,22 @@ const char *const METER_STAGE_NAMES[METER_STAGES] = {"vertex", "fragment"};
 /* The inputs are highp, so that they arrive whole. They and the result are multiplied by ONE, which
  * the compiler does not know to be 1: Mesa computes a single operation between two highp numbers in
  * highp, whatever it is declared as, and only chains of operations as in a scene's shaders in
- * mediump. */
-static const char *const VERTEX[METER_STAGES] = {"precision PRECISION float;\n"
-                                                 "attribute highp vec4 a_Position;\n"
-                                                 "attribute highp vec4 a_A, a_B;\n"
-                                                 "uniform float u_One;\n"
-                                                 "varying highp vec4 v_Result;\n"
-                                                 "void main() {\n"
-                                                 "    gl_Position = a_Position;\n"
-                                                 "    gl_PointSize = 1.0;\n"
-                                                 "    vec4 a = a_A, b = a_B;\n"
-                                                 "    a *= ONE;\n"
-                                                 "    b *= ONE;\n"
-                                                 "    v_Result = ONE * (CODE);\n"
-                                                 "}\n",
-                                                 "attribute highp vec4 a_Position;\n"
-                                                 "varying highp vec2 v_At;\n"
-                                                 "void main() {\n"
-                                                 "    v_At = 0.5 * a_Position.xy + 0.5;\n"
-                                                 "    gl_Position = a_Position;\n"
-                                                 "}\n"};
-static const char *const FRAGMENT[METER_STAGES] = {
-    "varying highp vec4 v_Result;\n"
-    "void main() {\n"
-    "    gl_FragColor = v_Result;\n"
-    "}\n",
-    "precision PRECISION float;\n"
-    "uniform highp sampler2D u_A, u_B;\n"
-    "uniform float u_One;\n"
-    "varying highp vec2 v_At;\n"
-    "void main() {\n"
-    "    vec4 a = texture2D(u_A, v_At), b = texture2D(u_B, v_At);\n"
-    "    a *= ONE;\n"
-    "    b *= ONE;\n"
-    "    gl_FragColor = ONE * (CODE);\n"
-    "}\n"};
-
+ * mediump. The shaders: study/meter_vertex and study/meter_fragment. */
 static GLuint program_of(const char *code, const char *one, MeterStage stage,
                          MeterPrecision precision, Message *message)
 {
     char defines[3][256];
     const char *const lines[] = {defines[0], defines[1], defines[2], NULL};
-    const ShaderText texts[] = {
-        {"meter.vert", VERTEX[stage]}, {"meter.frag", FRAGMENT[stage]}, {NULL, NULL}};
-    const ShaderLoader loader = {.texts = texts, .only_texts = true, .defines = lines};
+    const ShaderLoader loader = {.defines = lines};
     Shader shader;
     snprintf(defines[0], sizeof defines[0], "PRECISION %s", METER_PRECISION_NAMES[precision]);
     snprintf(defines[1], sizeof defines[1], "ONE %s", one);
     snprintf(defines[2], sizeof defines[2], "CODE %s", code);
-    return shader_open(&shader, &loader, "meter", message) ? shader.program : 0;
+    return shader_open(&shader, &loader,
+                       stage == METER_VERTEX ? "study/meter_vertex" : "study/meter_fragment",
+                       message)
+               ? shader.program
+               : 0;
 }
 
 GLuint meter_program(const char *code, MeterStage stage, MeterPrecision precision, Message *message)
