@@ -98,14 +98,6 @@ class Surveys(Study):
             self.assertIn(f"<p>{time}; ", page)
         self.assertEqual(self.png("accuracy/glance-mediump.png").width, 2 * 240 + 8)
         self.assertRegex(text, r"\nBlinn-Phong: \d+ to \d+ steps .*\naccuracy/index\.html: .*table\.txt.*\n$")
-        tables = self.read("accuracy/table.txt").decode()
-        printed = self.says(0, "^renderer: ", "--scene", "cube", "--verbose", *QUICK,
-                            program="accuracy", environment=self.own).stdout.decode()
-        for table in tables, printed:
-            self.assertRegex(table, r"cube, 48x48; .*LP_NUM_THREADS")
-            self.assertRegex(table, r"\n[*]")
-            self.assertRegex(table, r"Blinn-Phong, fitted")
-            self.assertRegex(table, r"matrices=compensated order=lecture")
         rows = self.rows()
         self.assertEqual(len(rows), 15)
         self.assertEqual({row["scene"] for row in rows}, {"cube"})
@@ -354,8 +346,13 @@ class Surveys(Study):
             if name != "results.csv":
                 os.remove(self.path("accuracy", name))
         os.mkdir(self.path("bin"))
-        self.says(0, r"^accuracy: no plots: .*gnuplot-nox\n$", "--scene", "cube", *QUICK,
-                  program="accuracy", environment={**self.own, "PATH": self.path("bin")})
+        printed = self.says(0, r"(?s)^renderer: .*accuracy: no plots: .*gnuplot-nox\n$", "--scene", "cube", "--verbose",
+                            *QUICK, program="accuracy", environment={**self.own, "PATH": self.path("bin")})
+        for table in printed.stdout.decode(), self.read("accuracy/table.txt").decode():
+            self.assertRegex(table, r"cube, 48x48; .*LP_NUM_THREADS")
+            self.assertRegex(table, r"\n[*]")
+            self.assertRegex(table, r"Blinn-Phong, fitted")
+            self.assertRegex(table, r"matrices=compensated order=lecture")
         found = os.listdir(self.path("accuracy"))
         for name in ("results.csv", "results.json", "table.txt", "cube-usual.png"):
             self.assertIn(name, found)
@@ -460,8 +457,8 @@ class Choices(Study):
         self.assertIn(found[0], " ".join(explained.split()))
 
     def test_each_way_of_shadows_has_a_choice_of_its_own(self):
-        choices = [self.run_it("--error", "8", "-v", "--shadows", way, "-s", "40x40", "-o", "x.png",
-                               program="Shadows", environment=self.own).stderr.decode()
+        choices = [self.run_it("--spot", "off", "--point", "off", "--error", "8", "-v", "--shadows", way,
+                               "-s", "40x40", "-o", "x.png", program="Shadows", environment=self.own).stderr.decode()
                    for way in ("map:16", "volumes", "map:16")]
         self.assertEqual(["from the cache" in choice for choice in choices], [False, False, True])
 
@@ -469,10 +466,10 @@ class Choices(Study):
         self.says(0, r"^ShadingModels: --error 0.001 is unreachable: the best is 0\.\d+, inside "
                   r"objects; drawing that\n$", "--error", "0.001", "-s", "40x40",
                   program="ShadingModels", environment=self.own)
-        # One line for six views.
-        self.says(0, r"^LightTypes: --error 0.001 is unreachable: the best is 0\.\d+, inside "
+        # One line for three views.
+        self.says(0, r"^PhongBlinn: --error 0.001 is unreachable: the best is 0\.\d+, inside "
                   r"objects of view \d; drawing that\n$", "--error", "0.001", "-s", "60x40",
-                  program="LightTypes", environment=self.own)
+                  program="PhongBlinn", environment=self.own)
         self.wrong(2, "--error -1: must be", "--error=-1", program="ShadingModels")
         self.wrong(2, "--error: no such option", "--error", "1", program="LightedCube",
                    lines=1)
@@ -480,13 +477,13 @@ class Choices(Study):
     def test_error_keeps_the_options_that_are_given(self):
         for more in (["--interpolation", "flat"], ["--interpolation", "phong"],
                      ["--interpolation", "gouraud"], ["--precision", "mediump"])[::base.step(3)]:
-            text = self.says(0, "view 0: ", "--error", "16", "-v", "-s", "100x100", *more,
+            text = self.says(0, "view 0: ", "--error", "16", "-v", "-s", "50x50", *more,
                              program="ShadingModels", environment=self.own).stderr.decode()
             self.assertNotRegex(text, "lit per")
             self.assertEqual("mediump" in more, "precision of fragment shaders: mediump" in text)
         simpler = r"lights (at infinity|without highlight|off)"
         for more, found in ([], True), (["--red", "on"], False), (["--terms", "diffuse"], False):
-            text = self.says(0, "view 0: ", "--error", "16", "-v", "-s", "100x75", *more,
+            text = self.says(0, "view 0: ", "--error", "16", "-v", "-s", "40x30", *more,
                              program="FourLights", environment=self.own).stderr.decode()
             self.assertEqual(bool(re.search(simpler, text)), found, more)
 

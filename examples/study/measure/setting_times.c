@@ -196,13 +196,14 @@ static bool run_rounds(SettingTimes *times, Batch *batch, Message *message)
 }
 
 /* Rounds for each, so that together they take about `seconds` and no setting takes most of it. */
-static void share_rounds(Batch *batch, const double *frames, double seconds, int min_rounds)
+static void share_rounds(Batch *batch, const double *frames, double seconds)
 {
+    enum { MIN_ROUNDS = 3 };
     const double share = seconds / (2 * RESULT_RUNS * (batch->count + 3));
     int max = 2; /* of the usual one, for the noise */
     for (int i = 0; i < batch->count; i++) {
         const double rounds = share / frames[i];
-        batch->timed[i].rounds = rounds < min_rounds                 ? min_rounds
+        batch->timed[i].rounds = rounds < MIN_ROUNDS                 ? MIN_ROUNDS
                                  : rounds > SETTING_TIMES_MAX_ROUNDS ? SETTING_TIMES_MAX_ROUNDS
                                                                      : (int)rounds;
         max = batch->timed[i].rounds > max ? batch->timed[i].rounds : max;
@@ -362,8 +363,7 @@ bool setting_times_measure(SettingTimes *times, const Quality *qualities, int co
            setting_picture_open(&batch->drawings[USUAL], times->renderer, times->scene, &usual,
                                 message);
     if (done) {
-        share_rounds(batch, frames, seconds - (clock_now() - start),
-                     times->min_rounds > 1 ? times->min_rounds : 1);
+        share_rounds(batch, frames, seconds - (clock_now() - start));
         done = run_rounds(times, batch, message);
     }
     if (done && times->usual == 0)

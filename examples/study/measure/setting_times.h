@@ -34,7 +34,6 @@ typedef struct SettingTimes {
     const Reference *exact;
     ResultRow like; /* scene, size, renderer, threads, seed */
     double usual;   /* milliseconds of the usual setting; 0: not known yet */
-    int min_rounds; /* of each run; 0: 1 */
     /* Set by a signal handler: stop. */
     const volatile int *interrupted;
 } SettingTimes;

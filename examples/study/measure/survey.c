@@ -14,7 +14,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Seconds for a whole survey, without tables and plots. */
+/* Seconds for a survey of all scenes, without tables and plots: fewer rows take less. */
 static const double WHOLE = 260, QUICK = 13;
 
 static volatile sig_atomic_t interrupted;
@@ -42,11 +42,10 @@ static bool drop(const char *path, Message *message)
 
 bool survey_open(Survey *survey, const Options *options, const SurveyPlan *plan, Message *message)
 {
-    *survey = (Survey){
-        .folder = options->output,
-        .plan = *plan,
-        .seconds = (plan->quick ? QUICK : WHOLE) / (plan->part.count ? plan->part.count : 1),
-        .like = {.width = options->width, .height = options->height, .seed = plan->seed}};
+    *survey =
+        (Survey){.folder = options->output,
+                 .plan = *plan,
+                 .like = {.width = options->width, .height = options->height, .seed = plan->seed}};
     const char *threads = getenv("LP_NUM_THREADS");
     if (!output_folder(options->output, message) ||
         !shader_loader_check(&options->shaders, message) ||
@@ -195,15 +194,22 @@ static bool survey_scene(Survey *survey, int scene, Work *work, Message *message
 bool survey_run(Survey *survey, const int *scenes, int count, Message *message)
 {
     struct sigaction old[2], action = {.sa_handler = interrupt};
-    Work work = {.progress = progress_start("measuring"),
-                 .deadline = clock_now() + survey->seconds};
+    Work work = {.progress = progress_start("measuring")};
     bool done = true;
+    int whole = 0;
+    for (int i = 0; i < STUDY_SCENE_COUNT; i++) {
+        QualityList list;
+        planned(survey, i, &list);
+        whole += list.count;
+        quality_list_close(&list);
+    }
     for (int i = 0; i < count; i++) {
         QualityList list;
         missing(survey, scenes[i], &list);
         work.total += list.count;
         quality_list_close(&list);
     }
+    work.deadline = clock_now() + (survey->plan.quick ? QUICK : WHOLE) * work.total / whole;
     interrupted = 0;
     sigaction(SIGINT, &action, &old[0]);
     sigaction(SIGTERM, &action, &old[1]);
@@ -313,8 +319,6 @@ bool survey_merge(Survey *survey, const int *scenes, int count, Message *message
 bool survey_again(Survey *survey, int scene, const Quality *qualities, int count, ResultRow *rows,
                   Message *message)
 {
-    enum { MIN_ROUNDS = 3 };
-    static const double SECONDS = 4;
     Quality all[SETTING_TIMES_BATCH] = {quality_usual()};
     ResultRow measured[SETTING_TIMES_BATCH];
     StudyScene made;
@@ -326,8 +330,8 @@ bool survey_again(Survey *survey, int scene, const Quality *qualities, int count
         all[1 + i] = qualities[i];
     SettingTimes times = times_of(survey, scene, &made, &exact);
     times.usual = 0; /* as of now */
-    times.min_rounds = MIN_ROUNDS;
-    const bool done = setting_times_measure(&times, all, 1 + count, SECONDS, measured, message);
+    const bool done = setting_times_measure(&times, all, 1 + count, survey->plan.quick ? 1 : 4,
+                                            measured, message);
     setting_renderer_forget(survey->renderer);
     reference_close(&exact);
     for (int i = 0; i < count && done; i++)

@@ -27,7 +27,6 @@ typedef struct Survey {
     const char *folder;
     char path[PATH_MAX]; /* of the file of results */
     SurveyPlan plan;
-    double seconds; /* for all scenes together, approximately */
 } Survey;
 
 /* Opens the driver, makes the folder, and reads its rows. */
