@@ -59,7 +59,7 @@ static bool is_drawn(int way, int example)
 {
     const bool teapot = EXAMPLES[example] == &Materials || EXAMPLES[example] == &FourLights ||
                         EXAMPLES[example] == &TermsApart || EXAMPLES[example] == &Shadows;
-    const int step = testing_step(9) > 1 ? 9 : 1;     /* has those that the last test compares */
+    const int step = testing_step(9) > 1 ? 18 : 1;    /* has those that the last test compares */
     if (step > 1 && EXAMPLES[example] == &TermsApart) /* the teapot ten times: half of the time */
         return false;
     if (step > 1 && way > 0 && (teapot || (way + example) % step))

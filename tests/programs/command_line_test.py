@@ -409,6 +409,8 @@ class Options(Case):
         text = self.good("--doctor").decode()
         self.assertRegex(text, r"(?s)egl.*works.*renderer.*This machine can draw\.\n$")
         self.assertTrue(text.startswith("packages:\n  EGL "), text)
+        # What a backend computes with stands beside its displays, and not below one of them.
+        self.assertRegex(text, r"(?m)^  precision        \S")
         for works in re.findall(r"^ *works: .*$", text, re.M):  # of every backend in the same words
             self.assertRegex(works, r"renderer \S.* \((software|hardware)\), OpenGL ")
         self.assertEqual(self.everything(), {})
@@ -469,11 +471,6 @@ class Options(Case):
             self.refused(1, "OpenImageIO: its module, common/image_oiio.so, is not built yet: .*examples/run",
                          *SMALL, "-o", "a.exr", program=program)
 
-    def test_what_a_backend_computes_with_stands_beside_its_displays(self):
-        """And not below one of them, as if it were of that one."""
-        text = self.good("--doctor").decode()
-        self.assertRegex(text, r"(?m)^  precision        \S")
-
     def test_verbose_reports_programs_once(self):
         result = self.says(0, "opening", "-v", "-n", "4", "-s", "40", "-o", "p%d.png", program="LightTypes")
         self.assertEqual(result.stderr.decode().count("programs so far"), 1)
@@ -503,7 +500,7 @@ class Options(Case):
     def test_a_cache_of_pipes_is_not_waited_for(self):
         """Of what the programs keep, and Mesa, which opens each file that its index does not rule out."""
         for program in ("FourLights", *DIAGRAMS):
-            for spared in ("index", "none"):
+            for spared in ("index", "none")[::step(2)]:
                 draw = {"program": program, "environment": {"XDG_CACHE_HOME": self.path("cache")}}
                 picture = self.good(*SMALL, "-o", "-", **draw)
                 if os.path.exists(self.path("cache/mesa_shader_cache_db")):
@@ -829,7 +826,7 @@ class Outputs(Case):
     def test_what_interpolation_changes_is_what_a_program_per_fragment_mends(self):
         """The next program of the lecture computes the same equation at each fragment."""
         for program in "PointLightedCube", "PointLightedSphere":
-            for pixel in "200,200", "230,150", "180,230":
+            for pixel in ("200,200", "230,150", "180,230")[::step(2)]:
                 probe = "--precision", "highp", "--probe", pixel, "--format", "json"
                 coarse, fine = (json.loads(self.good(*probe, program=program + rest))
                                 for rest in ("", "_perFragment"))
@@ -844,7 +841,7 @@ class Outputs(Case):
     def test_output_that_does_not_arrive_is_a_failure(self):
         for arguments in (("--help",), ("--version",), ("-o", "-"), ("--print-shader",),
                           ("--doctor",)):
-            for shell in (">&-", ">/dev/full"):
+            for shell in (">&-", ">/dev/full")[::1 if arguments[0] != "--doctor" else step(2)]:
                 self.refused(1, "^LightedCube: standard output: cannot write: ", *SMALL, *arguments,
                              shell=shell)
 
@@ -857,7 +854,8 @@ class Outputs(Case):
             os.close(reading)
             self.good(*SMALL, *arguments, program=program, stdout=writing)
             os.close(writing)
-            self.good(*SMALL, *arguments, program=program, shell="| head -n 1")
+            if arguments[0] != "--doctor" or LONG:
+                self.good(*SMALL, *arguments, program=program, shell="| head -n 1")
         self.assertEqual(self.everything(), {})
 
     def test_closed_streams_do_no_harm(self):
@@ -882,7 +880,7 @@ class Outputs(Case):
     @unittest.skipUnless(os.path.exists(MODULE), "built without OpenImageIO")
     def test_other_formats(self):
         for extension, start in (("exr", b"\x76\x2f\x31\x01"), ("tif", b"II*\0"), ("webp", b"RIFF"),
-                                 ("jpg", b"\xff\xd8\xff"), ("PNG", b"\x89PNG")):
+                                 ("jpg", b"\xff\xd8\xff"), ("PNG", b"\x89PNG"))[::step(2)]:
             self.good(*SMALL, "-o", "a." + extension)
             self.assertTrue(self.read("a." + extension).startswith(start), extension)
         # The channels of an OpenEXR file: a name, and 2 for 32-bit float.
@@ -1086,7 +1084,7 @@ class Shaders(Case):
 
 class Scenes(Case):
     def test_every_scene_draws_the_same_with_the_full_program(self):
-        for program in SCENES[::step(6)]:
+        for program in SCENES[::step(9)]:
             with self.subTest(program=program):
                 # Costs are left out where the full program is drawn.
                 plain = ("--costs", "off") if program == "TermsApart" else ()
@@ -1159,7 +1157,7 @@ class Scenes(Case):
                 self.assertAlmostEqual(abs(next_to_it - at) / said, 1, delta=0.05)
 
     def test_antialiasing_changes_edges_alone(self):
-        for program in SCENES[::step(6)]:
+        for program in SCENES[1::step(9)]:
             with self.subTest(program=program):
                 plain = self.drawn(program=program).pixels
                 smooth = self.drawn("--samples", "4", program=program).pixels
@@ -1217,7 +1215,7 @@ class Scenes(Case):
                 ("ShadingModels", "--terms", "0"), ("SmoothFlat", "--shape", "square"),
                 ("SmoothFlat", "--interpolation", "constant"), ("FourLights", "--base", "off"),
                 ("FourLights", "--orbit", "0,30"), ("ColoredLights", "--light", "0,1,1"),
-                ("TermsApart", "--costs", "off"))[::step(3)]:
+                ("TermsApart", "--costs", "off"))[::step(5)]:
             with self.subTest(program=program, arguments=arguments):
                 # Captions are left out where there is no room for them.
                 size = ("-s", "600x300" if program == "TermsApart" else "120x120")
@@ -1241,7 +1239,7 @@ class Scenes(Case):
                 ("TermsApart", "", "--costs=off", "--shape=cube"),
                 ("SpotLight", "", "--cutoff=10", "--exponent=3", "--shape=cube"),
                 *((("Vectors", "--shininess", "--figure=rays", "--shininess=3"),)
-                  if DIAGRAMS else ()))[::step(2)]:
+                  if DIAGRAMS else ()))[::step(3)]:
             with self.subTest(program=program, arguments=arguments):
                 size = "600x300" if program == "TermsApart" else "120x120"  # room for captions
                 draw = functools.partial(self.good_or_unused, "-s", size, program=program)
@@ -1370,7 +1368,7 @@ class Scenes(Case):
         self.assertLess(max(abs(a - b) for a, b in zip(plain, behind)), 8)
 
     def test_every_distance_shows_the_scene(self):
-        for distance in ("0.3", "3", "27"):
+        for distance in ("0.3", "3", "27")[::step(2)]:
             for program in ("ShadingModels", "Materials", "FourLights", "ShininessRow"):
                 with self.subTest(program=program, distance=distance):
                     pixels = self.drawn("--orbit", "20,10," + distance, program=program).pixels
@@ -1387,7 +1385,7 @@ class Index(Case):
         commands = [words for words in commands if words[1] != "--costs"] # so that a page draws the same
         self.assertGreater(len(commands), 20)
         size, plain = ("-s", "120x120"), {}
-        for program, *options in commands[::step(3)]:
+        for program, *options in commands[::step(6)]:
             with self.subTest(program=program, options=options):
                 if program not in plain:
                     plain[program] = self.drawn(*size, program=program).pixels
@@ -1663,14 +1661,15 @@ class Again(Case):
             {}, {"TZ": "Asia/Tokyo", "LC_ALL": "C", "LP_NUM_THREADS": "0"},
             {"TZ": "America/Lima", "LC_ALL": "de_DE.UTF-8", "LANG": "de_DE.UTF-8",
              "LP_NUM_THREADS": "1", "HOME": "/nonexistent"},
-            {**self.decimal_comma(), "LP_NUM_THREADS": "2", "OPENIMAGEIO_THREADS": "1"})
+            *(({**self.decimal_comma(), "LP_NUM_THREADS": "2", "OPENIMAGEIO_THREADS": "1"},) if LONG else ()))
+        extra = () if LONG else environments[1:2]
         films = self.FILMS if shutil.which("ffmpeg") else ("gif",)
         draws = ([(suffix, "LightedCube", (*SMALL, "-t", "0.5"))
                   for suffix in (self.FORMATS if LONG else ("png", "exr", "tif", "webp", "dpx"))] +
                  [(suffix, "LightedCube_animation", ("-s", "64x48", "-n", "12"))
                   for suffix in films])
         first = {}
-        environments, draws = environments[::step(9)], draws[::step(6)]
+        environments, draws = environments[::step(9)] + extra, draws[::step(6)]
         for number, environment in enumerate(environments):
             folder = self.path(f"folder {number}")
             os.mkdir(folder)
@@ -1727,7 +1726,7 @@ class Again(Case):
     def test_a_date_is_that_of_source_date_epoch(self):
         for suffix in ("exr", "tif")[::step(2)]:
             for epoch, date in (("86399", b"1970:01:01 23:59:59"), (None, b"1970:01:01 00:00:00"),
-                                ("4102444800", b"2100:01:01 00:00:00")):
+                                ("4102444800", b"2100:01:01 00:00:00"))[::step(3)]:
                 environment = {"SOURCE_DATE_EPOCH": epoch} if epoch else {}
                 self.good(*SMALL, "-o", "a." + suffix, environment=environment)
                 self.assertIn(date, self.read("a." + suffix))
@@ -1749,9 +1748,7 @@ def run_tests():
 
 
 def main():
-    doctor = subprocess.run([os.path.join(EXAMPLES, "LightedCube"), "--doctor"],
-                            capture_output=True)
-    if doctor.returncode == 1:
+    if subprocess.run([os.path.join(EXAMPLES, "LightedCube"), "-s", "1x1", "-o", "-"], capture_output=True).returncode:
         print("skipped: this machine cannot draw; LightedCube --doctor says why")
         return 77
     return run_tests()

@@ -87,7 +87,7 @@ class Cases(Study):
     def test_a_case_of_a_shader_ends_with_the_line_that_the_stable_form_changes(self):
         for name, file in (("zero-normals", "unguarded.glsl"), ("cancelling", "unguarded.glsl"),
                            ("opposite", "unguarded.glsl"), ("touching", "unguarded.glsl"),
-                           ("pow", "unguarded_pow.glsl"), ("negative", "highlight_plain.glsl")):
+                           ("pow", "unguarded_pow.glsl"), ("negative", "highlight_plain.glsl"))[::base.step(2)]:
             text = self.hard_cases("--case", name)
             number = re.search(rf"\n(?:vertex \d+: )?{file}:(\d+): .* undefined\n(.*\n)*verdict: .*\n$", text)
             self.assertIsNotNone(number, text)
@@ -112,7 +112,7 @@ class Cases(Study):
         self.assertRegex(lines[4], r"^\| leak \| \d+\.\d\d \| [\d.]+% \|")
 
     def test_every_case_goes_wrong_and_is_kept(self):
-        text = self.hard_cases("-o", "all")
+        text = self.hard_cases("-o", "all", *(() if base.LONG else ("-s", "140x140")))
         names, rows = self.names(), self.rows(text)
         self.assertEqual(list(rows), names)
         for name, row in rows.items():
@@ -123,7 +123,7 @@ class Cases(Study):
             self.assertEqual(self.size(f"all/{name}.png")[0], width(280), name)
         for name, least in ("hard_cases", 1500), ("hard_shadows", 700):
             across, down = self.size(f"all/{name}.png")  # shown at half of that
-            self.assertTrue(1700 < across < 1900 and least < down <= 2000, (name, across, down))
+            self.assertTrue(1500 < across < 1900 and least < down <= 2000, (name, across, down))
 
     def test_another_size_is_drawn_and_small_ones_are_enlarged(self):
         self.hard_cases("--case", "leak", *SMALL)

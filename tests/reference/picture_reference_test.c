@@ -80,7 +80,7 @@ static bool check(const char *name, const Scene *scene, bool predict)
 TEST(scenes_are_drawn_as_the_reference_has_them)
 {
     static const double times[] = {0, 2.3};
-    const int every = testing_step(2), every_predicted = testing_step(12);
+    const int every = testing_step(2), every_predicted = testing_step(36);
     int number = 0;
     bool all = true;
     for (int i = 0; i < EXAMPLE_COUNT; i++) {

@@ -487,7 +487,7 @@ TEST_WITH(0, edges_are_as_exact_as_asked_for, set_up, tear_down)
     open_edge_scene();
     Reference fine =
         world_trace((ReferenceOptions){.edge_error = testing_step(5) == 1 ? 0.002 : 0.01});
-    for (double asked = 8; asked > 0.1; asked /= 2) {
+    for (double asked = 8; asked > (testing_step(5) == 1 ? 0.1 : 0.4); asked /= 2) {
         Reference picture = world_trace((ReferenceOptions){.edge_error = asked});
         const double worst = world_difference(&picture, &fine);
         double sum = 0;
@@ -582,7 +582,8 @@ TEST_WITH(0, a_cancelled_picture_is_empty, set_up, tear_down)
     int stopped = 0;
     for (int meshes = 0; meshes < 2; meshes++) {
         Reference whole = world_trace((ReferenceOptions){.meshes = meshes});
-        for (size_t i = 0; i < sizeof milliseconds / sizeof milliseconds[0]; i++) {
+        for (size_t i = 0; i < sizeof milliseconds / sizeof milliseconds[0];
+             i += (size_t)testing_step(3)) {
             Stopper stopper = {.nanoseconds = 1000000 * milliseconds[i]};
             const ReferenceOptions options = {.width = whole.width,
                                               .height = whole.height,

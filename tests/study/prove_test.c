@@ -161,7 +161,7 @@ TEST(no_picture_has_a_larger_error_than_is_proved)
     /* A float of the exact picture is rounded. */
     static const double ROUNDED = 255 * 0x1p-24;
     const CanvasOptions options = {.width = WIDTH, .height = HEIGHT, .real = true};
-    const int count = testing_part(500, 20);
+    const int count = testing_part(500, 40);
     Random random = {testing_seed(28)};
     double *ratios[4]; /* in floats, and with a byte's rounding in both */
     Canvas canvas;
