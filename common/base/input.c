@@ -68,6 +68,25 @@ char *input_read(int folder, const char *path, const char *name, size_t max, siz
     return bytes;
 }
 
+char *input_whole(const char *path, size_t *size, Message *message)
+{
+    const int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    const off_t room = file < 0 ? -1 : lseek(file, 0, SEEK_END);
+    char *bytes = room < 0 || lseek(file, 0, SEEK_SET) != 0 ? NULL : malloc((size_t)room + 1);
+    const ssize_t got = bytes ? input_bytes(file, bytes, (size_t)room) : -1;
+    if (got < 0)
+        message_set(message, "%s", bytes || room < 0 ? strerror(errno) : "not enough memory");
+    else
+        bytes[ *size = (size_t)got] = '\0';
+    if (got < 0) {
+        free(bytes);
+        bytes = NULL;
+    }
+    if (file >= 0)
+        close(file);
+    return bytes;
+}
+
 bool input_leaves(const char *path)
 {
     for (const char *part = path; part; part = strpbrk(part, "/\\"), part = part ? part + 1 : NULL)

@@ -19,6 +19,9 @@ ssize_t input_bytes(int file, void *bytes, size_t size);
 char *input_read(int folder, const char *path, const char *name, size_t max, size_t *size,
                  Message *message);
 
+/* The same of any file that the user names. */
+char *input_whole(const char *path, size_t *size, Message *message);
+
 /* Whether a path that a file names leads out of the file's folder: it begins with a slash or has a
  * part "..". Backslashes are slashes. */
 bool input_leaves(const char *path);

@@ -156,15 +156,9 @@ bool gltf_open(Gltf *gltf, const char *path, bool *other, Message *reason)
     *other = !dot || (strcasecmp(dot, ".gltf") != 0 && strcasecmp(dot, ".glb") != 0);
     if (*other)
         return false;
-    const int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-    const off_t room = file < 0 ? -1 : lseek(file, 0, SEEK_END);
-    gltf->file = room < 0 ? NULL : malloc((size_t)room + 1);
-    ssize_t got = 1;
-    for (; gltf->file && got > 0 && size<(size_t)room; size += got> 0 ? (size_t)got : 0)
-        got = pread(file, gltf->file + size, (size_t)room - size, (off_t)size);
-    close(file);
+    gltf->file = input_whole(path, &size, reason);
     if (!gltf->file)
-        return message_set(reason, "not enough memory");
+        return false;
     const bool binary = size >= 4 && memcmp(gltf->file, "glTF", 4) == 0;
     if (!binary && strcasecmp(dot, ".glb") == 0)
         return message_set(reason, "it does not begin as a .glb does");
@@ -368,9 +362,9 @@ static bool find_place(Gltf *gltf, const json_t *where, const char *name, Place 
     const json_int_t stride = gltf_whole(view, "byteStride", 0);
     const size_t element = bytes_of(place->component) * (size_t)place->size;
     place->stride = stride > 0 ? (size_t)stride : element;
-    const size_t last = (place->count - 1) * place->stride + element; /* counts are limited */
+    const uint64_t last = (place->count - 1) * (uint64_t)place->stride + element; /* limited */
     if (offset < 0 || stride < 0 || stride > 1 << 20 || offset > length ||
-        last > (size_t)(length - offset))
+        last > (uint64_t)(length - offset))
         return message_set(gltf->reason,
                            "%s: %zu elements from byte %lld on leave its bufferView of %lld bytes",
                            name, place->count, (long long)offset, (long long)length);

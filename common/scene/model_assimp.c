@@ -1,5 +1,5 @@
 /*
- * The plugin that reads files of scenes with Assimp; glTF 2.0 goes to gltf.c.
+ * The plugin that reads files of scenes with Assimp; glTF 2.0 goes to gltf.c, OBJ to model_obj.c.
  */
 #include "base/memory.h"
 #include "core/mesh_make.h"
@@ -47,15 +47,6 @@ static void set_name(char name[FILE_NAME], const char *text)
     snprintf(name, FILE_NAME, "%.47s", text);
 }
 
-/* The rotation that turns an axis, 0 to 2, or its opposite, to y. */
-static Mat4 upright(int axis, bool down)
-{
-    const Mat4 turned = axis == 0   ? mat4_rotate(90, (Vec3){0, 0, 1})
-                        : axis == 2 ? mat4_rotate(-90, (Vec3){1, 0, 0})
-                                    : mat4_identity();
-    return down ? mat4_product(mat4_rotate(180, (Vec3){0, 0, 1}), turned) : turned;
-}
-
 static bool metadata_is(const struct aiScene *scene, const char *key, int *value)
 {
     const struct aiMetadata *all = scene->mMetaData;
@@ -86,13 +77,13 @@ static Mat4 stand_up(const struct aiScene *scene, ModelUp up)
     int axis = 1, sign = 1;
     const bool turned = importer_is(scene, "3DS");
     if (up != MODEL_UP_FILE)
-        return mat4_product(upright((int)up - MODEL_UP_X, false),
+        return mat4_product(model_upright((int)up - MODEL_UP_X, false),
                             turned ? mat4_rotate(90, (Vec3){1, 0, 0}) : mat4_identity());
     if (importer_is(scene, "STL") || importer_is(scene, "Blender"))
-        return upright(2, false);
+        return model_upright(2, false);
     if (metadata_is(scene, "UpAxis", &axis))
         metadata_is(scene, "UpAxisSign", &sign);
-    return upright(axis, sign < 0);
+    return model_upright(axis, sign < 0);
 }
 
 /* Meshes */
@@ -475,15 +466,9 @@ bool assimp_read(const char *path, ModelUp up, SceneFile *file, Message *reason)
 
 static bool read_file(const char *path, ModelUp up, SceneFile *file, Message *reason)
 {
-    bool other = true, read = false;
-#ifdef HAVE_JANSSON /* without it Assimp reads glTF 2.0, too */
-    read = gltf_read(path, file, &other, reason);
-#endif
-    if (other)
-        return assimp_read(path, up, file, reason);
-    if (read && up != MODEL_UP_FILE) /* the first is the world */
-        file->nodes[0].parent_from_node = upright((int)up - MODEL_UP_X, false);
-    return read;
+    bool other;
+    const bool read = own_read(path, up, file, &other, reason);
+    return other ? assimp_read(path, up, file, reason) : read;
 }
 
 static const char *version(void)

@@ -1,0 +1,461 @@
+/*
+ * OBJ files and their materials (Wavefront's Advanced Visualizer, appendix B). A mesh for each
+ * group and material, whose corners of equal position and normal are one vertex. Polygons are cut
+ * at ears: corners whose triangle holds no other corner (Meisters, Polygons have ears, 1975).
+ */
+#include "base/input.h"
+#include "base/memory.h"
+#include "core/mesh_make.h"
+#include "scene/model_module.h"
+#include "scene/texture_mean.h"
+
+#include <fcntl.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <unistd.h>
+
+typedef struct Corner {
+    int position, normal; /* normal -1: none */
+    int other;            /* vertex of the mesh at this position; -1: none */
+} Corner;
+
+typedef struct Paint {
+    char *name;
+    Object object;
+    Vec3 mean;
+    bool base, textures;
+} Paint;
+
+typedef struct Vectors {
+    float (*all)[3];
+    int count, room;
+} Vectors;
+
+typedef struct Obj {
+    SceneFile *file;
+    Message *reason;
+    int folder, line;
+    const char *at;
+    Vectors positions, colors, normals; /* a color of each position, if one has any */
+    bool colored;
+    int *first; /* vertex of the mesh at each position; -1: none */
+    Corner *corners;
+    int *polygon;
+    uint32_t *indices;
+    int corner_count, corner_room, index_count, index_room, polygon_count, polygon_room;
+    size_t vertices, triangles; /* of the meshes before */
+    Paint *paints;              /* the first is that of faces without */
+    int paint_count, paint_room, paint;
+    char name[FILE_NAME];
+} Obj;
+
+/* Words and numbers of a line, which goes on after a backslash. */
+
+static bool at_end(const char **at)
+{
+    *at += strspn(*at, " \t\r");
+    for (; **at == '\\' && (*at)[1 + ((*at)[1] == '\r')] == '\n'; *at += strspn(*at, " \t\r"))
+        *at += 2 + ((*at)[1] == '\r');
+    return !**at || **at == '\n' || **at == '#';
+}
+
+static int take_numbers(const char **at, int most, float *numbers)
+{
+    int count = 0;
+    for (char *end; count < most && !at_end(at); count++, *at = end) {
+        numbers[count] = (float)strtod(*at, &end);
+        if (end == *at)
+            break;
+    }
+    return count;
+}
+
+/* Whether the line's next word is this one, which is taken then. */
+static bool take_word(const char **at, const char *word)
+{
+    const size_t length = strlen(word);
+    *at += strspn(*at, " \t\r");
+    if (strncmp(*at, word, length) != 0 || !strchr(" \t\r\n", (*at)[length]))
+        return false;
+    *at += length;
+    return true;
+}
+
+/* The rest of the line without blanks around it, to be freed. */
+static char *take_rest(const char **at)
+{
+    *at += strspn(*at, " \t\r");
+    size_t length = strcspn(*at, "\n");
+    while (length > 0 && strchr(" \t\r", (*at)[length - 1]))
+        length--;
+    return memory_format("%.*s", (int)length, *at);
+}
+
+/* Materials */
+
+static char *read_beside(Obj *obj, const char *path, size_t *size, Message *why)
+{
+    if (!input_leaves(path) && !strchr(path, ':'))
+        return input_read(obj->folder, path, path, MODEL_BYTES_MAX, size, why);
+    scene_file_note(obj->file, NOTE_OUTSIDE);
+    message_set(why, "refused");
+    return NULL;
+}
+
+static void add_paint(Obj *obj, char *name)
+{
+    static const Vec3 grey = {0.6, 0.6, 0.6};
+    Paint *paint =
+        memory_add(&obj->paints, &obj->paint_count, &obj->paint_room, sizeof *obj->paints);
+    *paint = (Paint){.name = name, .mean = {1, 1, 1}};
+    paint->object.front = (Material){.diffuse = grey, .alpha = 1};
+}
+
+static void read_material_line(Obj *obj, const char *at, Paint *paint)
+{
+    Material *to = &paint->object.front;
+    const struct {
+        const char *word;
+        Vec3 *color;
+        double *number, sign, most;
+    } all[] = {{"Ka", .color = &to->ambient},        {"Kd", .color = &to->diffuse},
+               {"Ks", .color = &to->specular},       {"Ke", .color = &to->emission},
+               {"Ns", NULL, &to->shininess, 1, 128}, {"d", NULL, &to->alpha, 1, 1},
+               {"Tr", NULL, &to->alpha, -1, 1}};
+    float v[3];
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
+        const int count = take_word(&at, all[i].word) ? take_numbers(&at, 3, v) : 0;
+        if (count == 0)
+            continue;
+        if (all[i].color) /* one is of all three */
+            *all[i].color = color_within_one(
+                (Vec3){(double)v[0], (double)v[count > 1 ? 1 : 0], (double)v[count > 2 ? 2 : 0]});
+        else
+            *all[i].number =
+                fmin(fmax((double)v[0] * all[i].sign + (all[i].sign < 0), 0), all[i].most);
+    }
+    paint->textures |= strncmp(at, "map_", 4) == 0 && strncmp(at, "map_Kd", 6) != 0;
+    if (!take_word(&at, "map_Kd"))
+        return;
+    Message why = {0};
+    size_t size = 0;
+    char *rest = take_rest(&at), *space = rest[0] == '-' ? strrchr(rest, ' ') : NULL;
+    const char *path = space ? space + 1 : rest; /* after options */
+    char *bytes = read_beside(obj, path, &size, &why);
+    paint->mean = texture_mean(obj->file, path, bytes, size, &why);
+    paint->base = true;
+    free(rest);
+}
+
+static Vec3 multiply(Vec3 a, Vec3 b)
+{
+    return (Vec3){a.x * b.x, a.y * b.y, a.z * b.z};
+}
+
+static void read_materials(Obj *obj, const char *path)
+{
+    Message why = {0};
+    size_t size = 0;
+    const int first = obj->paint_count;
+    char *bytes = read_beside(obj, path, &size, &why);
+    if (!bytes)
+        scene_file_note(obj->file, "files of materials that cannot be read: grey");
+    for (const char *at = bytes; at; at = strchr(at, '\n'), at = at ? at + 1 : NULL)
+        if (take_word(&at, "newmtl"))
+            add_paint(obj, take_rest(&at));
+        else if (obj->paint_count > first)
+            read_material_line(obj, at, &obj->paints[obj->paint_count - 1]);
+    free(bytes);
+}
+
+/* The material as the scene has it: Assimp's way with those of other formats. */
+static Object painted(const Paint *paint)
+{
+    Object object = paint->object;
+    Material *to = &object.front;
+    to->ambient = multiply(color_is_black(to->ambient) ? to->diffuse : to->ambient, paint->mean);
+    to->diffuse = multiply(to->diffuse, paint->mean);
+    if (to->shininess == 0) /* no exponent: no highlight */
+        to->specular = (Vec3){0, 0, 0};
+    object.back = *to;
+    return object;
+}
+
+/* Meshes */
+
+static bool fill_mesh(Obj *obj, Mesh *mesh, Vec3 diffuse)
+{
+    if (!mesh_open(mesh, (size_t)obj->corner_count, (size_t)obj->index_count, obj->reason) ||
+        (obj->colored && !mesh_open_colors(mesh, obj->reason)))
+        return false;
+    memcpy(mesh->indices, obj->indices, mesh->index_count * sizeof *mesh->indices);
+    for (int i = 0; i < obj->corner_count; i++) {
+        const Corner *corner = &obj->corners[i];
+        const size_t bytes = sizeof *obj->positions.all;
+        memcpy(mesh->vertices[i].position, obj->positions.all[corner->position], bytes);
+        if (corner->normal >= 0)
+            memcpy(mesh->vertices[i].normal, obj->normals.all[corner->normal], bytes);
+        if (obj->colored)
+            vec3_to_float(color_within_one(multiply(
+                              vec3_from_float(obj->colors.all[corner->position]), diffuse)),
+                          mesh->colors[i]);
+    }
+    return true;
+}
+
+/* The mesh of the faces so far, and an object with it. */
+static bool end_mesh(Obj *obj)
+{
+    const Paint *paint = &obj->paints[obj->paint];
+    if (obj->index_count == 0)
+        return true;
+    Mesh *mesh = scene_file_add(obj->file, FILE_MESHES, obj->reason);
+    FileObject *object = mesh ? scene_file_add(obj->file, FILE_OBJECTS, obj->reason) : NULL;
+    if (!object)
+        return false;
+    object->object = painted(paint);
+    object->mesh = obj->file->mesh_count - 1;
+    memcpy(object->name, obj->name, sizeof object->name);
+    if (paint->base)
+        scene_file_note(obj->file, NOTE_MEAN);
+    if (paint->textures)
+        scene_file_note(obj->file, NOTE_TEXTURES);
+    if (object->object.front.alpha < 1)
+        scene_file_note(obj->file, NOTE_TRANSPARENT);
+    if (!fill_mesh(obj, mesh, object->object.front.diffuse))
+        return false;
+    for (int i = 0; i < obj->corner_count; i++)
+        obj->first[obj->corners[i].position] = -1;
+    obj->vertices += (size_t)obj->corner_count;
+    obj->triangles += (size_t)obj->index_count / 3;
+    obj->corner_count = obj->index_count = 0;
+    return true;
+}
+
+/* The number of an item that a face names: from 1 on, or back from the last one, -1. */
+static bool take_index(Obj *obj, int count, const char *what, int *index)
+{
+    char *end;
+    const long number = strtol(obj->at, &end, 10);
+    if (end == obj->at || number == 0 || number > count || number < -(long)count)
+        return message_set(obj->reason,
+                           "line %d: a face names a %s that is none of the %d before it", obj->line,
+                           what, count);
+    *index = (int)(number > 0 ? number - 1 : count + number);
+    obj->at = end;
+    return true;
+}
+
+/* position, position/texture, position//normal or all three, as a vertex of the mesh. */
+static bool take_corner(Obj *obj, int *vertex)
+{
+    Corner corner = {.normal = -1};
+    if (!take_index(obj, obj->positions.count, "vertex", &corner.position))
+        return false;
+    if (*obj->at == '/')
+        obj->at += 1 + strspn(obj->at + 1, "-0123456789");
+    if (*obj->at == '/' && obj->at++ && !strchr(" \t\r\n", *obj->at) &&
+        !take_index(obj, obj->normals.count, "normal", &corner.normal))
+        return false;
+    int *first = &obj->first[corner.position];
+    for (*vertex = *first; *vertex >= 0; *vertex = obj->corners[*vertex].other)
+        if (obj->corners[*vertex].normal == corner.normal)
+            return true;
+    corner.other = *first;
+    *vertex = *first = obj->corner_count;
+    *(Corner *)memory_add(&obj->corners, &obj->corner_count, &obj->corner_room,
+                          sizeof *obj->corners) = corner;
+    return true;
+}
+
+static void add_triangle(Obj *obj, const int corners[3])
+{
+    for (int k = 0; k < 3; k++)
+        *(uint32_t *)memory_add(&obj->indices, &obj->index_count, &obj->index_room,
+                                sizeof *obj->indices) = (uint32_t)corners[k];
+}
+
+static Vec3 place_of(const Obj *obj, int number)
+{
+    const int vertex = obj->polygon[number % obj->polygon_count];
+    return vec3_from_float(obj->positions.all[obj->corners[vertex].position]);
+}
+
+/* How much a, b, c turn in the direction of the polygon. */
+static double turn(Vec3 a, Vec3 b, Vec3 c, Vec3 normal)
+{
+    return vec3_dot(vec3_cross(vec3_subtract(b, a), vec3_subtract(c, b)), normal);
+}
+
+static bool is_ear(const Obj *obj, int i, Vec3 normal)
+{
+    const Vec3 a = place_of(obj, i), b = place_of(obj, i + 1), c = place_of(obj, i + 2);
+    bool empty = turn(a, b, c, normal) > 0;
+    for (int k = i + 3; k < i + obj->polygon_count && empty; k++) {
+        const Vec3 p = place_of(obj, k);
+        empty =
+            !(turn(a, b, p, normal) > 0 && turn(b, c, p, normal) > 0 && turn(c, a, p, normal) > 0);
+    }
+    return empty;
+}
+
+static void add_polygon(Obj *obj)
+{
+    int *p = obj->polygon, missed = 0;
+    Vec3 normal = {0, 0, 0}; /* Newell's: twice the area */
+    for (int i = 1; i + 1 < obj->polygon_count; i++)
+        normal =
+            vec3_add(normal, vec3_cross(vec3_subtract(place_of(obj, i), place_of(obj, 0)),
+                                        vec3_subtract(place_of(obj, i + 1), place_of(obj, 0))));
+    for (int i = 0; obj->polygon_count > 3; i %= obj->polygon_count) {
+        const int n = obj->polygon_count, cut = (i + 1) % n;
+        if (missed < n && !is_ear(obj, i, normal)) { /* else it crosses itself, or has no area */
+            i++, missed++;
+            continue;
+        }
+        add_triangle(obj, (const int[]){p[i], p[cut], p[(i + 2) % n]});
+        memmove(p + cut, p + cut + 1, (size_t)(n - cut - 1) * sizeof *p);
+        obj->polygon_count--;
+        missed = missed < n ? 0 : n;
+    }
+    add_triangle(obj, p);
+}
+
+static bool read_face(Obj *obj)
+{
+    for (obj->polygon_count = 0; !at_end(&obj->at);) {
+        int vertex;
+        if (!take_corner(obj, &vertex))
+            return false;
+        *(int *)memory_add(&obj->polygon, &obj->polygon_count, &obj->polygon_room,
+                           sizeof *obj->polygon) = vertex;
+    }
+    if (obj->polygon_count > 2)
+        add_polygon(obj);
+    else
+        scene_file_note(obj->file, NOTE_LINES);
+    return scene_file_fits(obj->vertices + (size_t)obj->corner_count,
+                           3 * obj->triangles + (size_t)obj->index_count, obj->reason);
+}
+
+static bool read_vector(Obj *obj, Vectors *list)
+{
+    float v[7] = {0, 0, 0, 1, 1, 1, 1};
+    const int count = take_numbers(&obj->at, 7, v);
+    if (count < 3)
+        return message_set(obj->reason, "line %d: three numbers are needed", obj->line);
+    memcpy(memory_add(&list->all, &list->count, &list->room, sizeof *list->all), v,
+           sizeof *list->all);
+    if (list == &obj->normals)
+        return true;
+    obj->colored |= count > 5;
+    memcpy(memory_add(&obj->colors.all, &obj->colors.count, &obj->colors.room,
+                      sizeof *obj->colors.all),
+           v + (count > 6 ? 4 : 3), sizeof *obj->colors.all);
+    obj->first = memory_grow(obj->first, (size_t)list->room, sizeof *obj->first);
+    obj->first[list->count - 1] = -1;
+    return true;
+}
+
+/* The next faces are of another group or material. */
+static bool begin_part(Obj *obj, const char *name, bool material)
+{
+    int i = obj->paint_count - 1;
+    if (!material) {
+        const bool done = end_mesh(obj);
+        snprintf(obj->name, sizeof obj->name, "%s", name);
+        return done;
+    }
+    while (i > 0 && strcmp(obj->paints[i].name, name) != 0)
+        i--;
+    const bool done = i == obj->paint || end_mesh(obj);
+    obj->paint = i;
+    return done;
+}
+
+static bool read_line(Obj *obj)
+{
+    if (take_word(&obj->at, "v"))
+        return read_vector(obj, &obj->positions);
+    if (take_word(&obj->at, "vn"))
+        return read_vector(obj, &obj->normals);
+    if (take_word(&obj->at, "f"))
+        return read_face(obj);
+    if (take_word(&obj->at, "l") || take_word(&obj->at, "p"))
+        scene_file_note(obj->file, NOTE_LINES);
+    if (take_word(&obj->at, "curv") || take_word(&obj->at, "surf"))
+        scene_file_note(obj->file, "curves and surfaces: left out");
+    const bool library = take_word(&obj->at, "mtllib"), material = take_word(&obj->at, "usemtl");
+    if (!library && !material && !take_word(&obj->at, "o") && !take_word(&obj->at, "g"))
+        return true;
+    char *name = take_rest(&obj->at);
+    const bool done = library || begin_part(obj, name, material);
+    if (library)
+        read_materials(obj, name);
+    free(name);
+    return done;
+}
+
+static bool read_lines(Obj *obj)
+{
+    FileNode *world = scene_file_add(obj->file, FILE_NODES, NULL);
+    *world = (FileNode){.parent = -1, .parent_from_node = mat4_identity()};
+    add_paint(obj, memory_text(""));
+    for (obj->line = 1; *obj->at; obj->line++) {
+        if (!read_line(obj))
+            return false;
+        obj->at += strcspn(obj->at, "\n");
+        obj->at += *obj->at == '\n';
+    }
+    return end_mesh(obj);
+}
+
+static bool read_bytes(const char *path, char *bytes, SceneFile *file, Message *reason)
+{
+    const char *slash = strrchr(path, '/');
+    char *folder = slash ? memory_format("%.*s", (int)(slash + 1 - path), path) : memory_text(".");
+    Obj obj = {.file = file,
+               .reason = reason,
+               .folder = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC),
+               .at = bytes};
+    const bool done = read_lines(&obj);
+    for (int i = 0; i < obj.paint_count; i++)
+        free(obj.paints[i].name);
+    void *const all[] = {obj.positions.all, obj.colors.all, obj.normals.all, obj.first, obj.corners,
+                         obj.indices,       obj.polygon,    obj.paints,      folder};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        free(all[i]);
+    close(obj.folder);
+    return done;
+}
+
+bool own_read(const char *path, ModelUp up, SceneFile *file, bool *other, Message *reason)
+{
+    const char *dot = strrchr(path, '.');
+    bool read = false;
+    *other = true;
+#ifdef HAVE_JANSSON /* without it Assimp reads glTF 2.0, too */
+    read = gltf_read(path, file, other, reason);
+#endif
+    if (*other && dot && strcasecmp(dot, ".obj") == 0) {
+        size_t size;
+        char *bytes = input_whole(path, &size, reason);
+        *other = false;
+        read = bytes && read_bytes(path, bytes, file, reason);
+        free(bytes);
+    }
+    if (read && up != MODEL_UP_FILE) /* the first is the world */
+        file->nodes[0].parent_from_node = model_upright((int)up - MODEL_UP_X, false);
+    return read;
+}
+
+Mat4 model_upright(int axis, bool down)
+{
+    const Mat4 turned = axis == 0   ? mat4_rotate(90, (Vec3){0, 0, 1})
+                        : axis == 2 ? mat4_rotate(-90, (Vec3){1, 0, 0})
+                                    : mat4_identity();
+    return down ? mat4_product(mat4_rotate(180, (Vec3){0, 0, 1}), turned) : turned;
+}
