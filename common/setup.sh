@@ -31,7 +31,7 @@ packages_to_study="gnuplot-nox"
 # check: archives, JSON, the sandbox of a submission.
 packages_to_check="libarchive-dev libjansson-dev libseccomp-dev zlib1g-dev bubblewrap"
 # The pages for a browser, and to test them.
-packages_to_web="emscripten node-acorn node-qrcode-generator python3 fonttools pandoc meson ninja-build libstb-dev fonts-dejavu-core"
+packages_to_web="emscripten node-acorn node-qrcode-generator python3 fonttools pandoc meson ninja-build libjansson-dev libstb-dev fonts-dejavu-core"
 packages_to_browse="chromium firefox-esr zbar-tools"
 # The book as a PDF:
 packages_to_print="chromium poppler-utils"

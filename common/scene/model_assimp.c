@@ -77,13 +77,13 @@ static Mat4 stand_up(const struct aiScene *scene, ModelUp up)
     int axis = 1, sign = 1;
     const bool turned = importer_is(scene, "3DS");
     if (up != MODEL_UP_FILE)
-        return mat4_product(model_upright((int)up - MODEL_UP_X, false),
+        return mat4_product(scene_file_upright((int)up - MODEL_UP_X, false),
                             turned ? mat4_rotate(90, (Vec3){1, 0, 0}) : mat4_identity());
     if (importer_is(scene, "STL") || importer_is(scene, "Blender"))
-        return model_upright(2, false);
+        return scene_file_upright(2, false);
     if (metadata_is(scene, "UpAxis", &axis))
         metadata_is(scene, "UpAxisSign", &sign);
-    return model_upright(axis, sign < 0);
+    return scene_file_upright(axis, sign < 0);
 }
 
 /* Meshes */
@@ -467,7 +467,7 @@ bool assimp_read(const char *path, ModelUp up, SceneFile *file, Message *reason)
 static bool read_file(const char *path, ModelUp up, SceneFile *file, Message *reason)
 {
     bool other;
-    const bool read = own_read(path, up, file, &other, reason);
+    const bool read = own_read(path, file, &other, reason);
     return other ? assimp_read(path, up, file, reason) : read;
 }
 

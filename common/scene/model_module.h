@@ -17,10 +17,7 @@ typedef struct ModelModule {
 
 /* The readers: Assimp's, and our own of glTF 2.0 and OBJ. `*other`: it is of another format. */
 bool assimp_read(const char *path, ModelUp up, SceneFile *file, Message *reason);
-bool own_read(const char *path, ModelUp up, SceneFile *file, bool *other, Message *reason);
-
-/* The rotation that turns an axis, 0 to 2, or its opposite, to y. */
-Mat4 model_upright(int axis, bool down);
+bool own_read(const char *path, SceneFile *file, bool *other, Message *reason);
 
 /* glTF 2.0. `*other`, and true: it is not of this format. */
 bool gltf_read(const char *path, SceneFile *file, bool *other, Message *reason);

@@ -344,7 +344,11 @@ static bool read_face(Obj *obj)
 static bool read_vector(Obj *obj, Vectors *list)
 {
     float v[7] = {0, 0, 0, 1, 1, 1, 1};
-    const int count = take_numbers(&obj->at, 7, v);
+    int count = take_numbers(&obj->at, 7, v);
+    if (count < 3 && !at_end(&obj->at)) { /* no number */
+        v[count] = NAN;
+        count = 3;
+    }
     if (count < 3)
         return message_set(obj->reason, "line %d: three numbers are needed", obj->line);
     memcpy(memory_add(&list->all, &list->count, &list->room, sizeof *list->all), v,
@@ -432,7 +436,7 @@ static bool read_bytes(const char *path, char *bytes, SceneFile *file, Message *
     return done;
 }
 
-bool own_read(const char *path, ModelUp up, SceneFile *file, bool *other, Message *reason)
+bool own_read(const char *path, SceneFile *file, bool *other, Message *reason)
 {
     const char *dot = strrchr(path, '.');
     bool read = false;
@@ -447,15 +451,6 @@ bool own_read(const char *path, ModelUp up, SceneFile *file, bool *other, Messag
         read = bytes && read_bytes(path, bytes, file, reason);
         free(bytes);
     }
-    if (read && up != MODEL_UP_FILE) /* the first is the world */
-        file->nodes[0].parent_from_node = model_upright((int)up - MODEL_UP_X, false);
+    file->turns = read;
     return read;
-}
-
-Mat4 model_upright(int axis, bool down)
-{
-    const Mat4 turned = axis == 0   ? mat4_rotate(90, (Vec3){0, 0, 1})
-                        : axis == 2 ? mat4_rotate(-90, (Vec3){1, 0, 0})
-                                    : mat4_identity();
-    return down ? mat4_product(mat4_rotate(180, (Vec3){0, 0, 1}), turned) : turned;
 }

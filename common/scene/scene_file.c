@@ -215,6 +215,14 @@ void scene_file_pose(const SceneFile *file, double seconds, Mat4 *world_from_nod
     }
 }
 
+Mat4 scene_file_upright(int axis, bool down)
+{
+    const Mat4 turned = axis == 0   ? mat4_rotate(90, (Vec3){0, 0, 1})
+                        : axis == 2 ? mat4_rotate(-90, (Vec3){1, 0, 0})
+                                    : mat4_identity();
+    return down ? mat4_product(mat4_rotate(180, (Vec3){0, 0, 1}), turned) : turned;
+}
+
 /* Of the light ((cos - cos outer) / (cos inner - cos outer))^2: KHR_lights_punctual. */
 double scene_file_spot_exponent(double inner, double outer)
 {

@@ -70,6 +70,7 @@ typedef struct SceneFile {
     Scene scene;      /* all else of it, as its colours are meant; without lights and objects */
     bool photometric; /* lights are in candela and lux, or watts: above 1 */
     bool own;         /* written by us: nothing of it is to be chosen */
+    bool turns;       /* its first node, the world, is yet to be turned as the user says */
     FileNode *nodes;
     FileObject *objects;
     FileLight *lights;
@@ -92,6 +93,9 @@ bool scene_file_read(const char *path, ModelUp up, SceneFile *file, Message *mes
 /* Where nodes are at a time: of each, world_from_node. Until 0 they rest, and then the animation
  * begins, again and again. */
 void scene_file_pose(const SceneFile *file, double seconds, Mat4 *world_from_nodes);
+
+/* The rotation that turns an axis, 0 to 2, or its opposite, to y. */
+Mat4 scene_file_upright(int axis, bool down);
 
 /* A node's matrix from what channels change. */
 Mat4 scene_file_moved(const FileNode *node);

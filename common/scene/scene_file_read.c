@@ -51,7 +51,7 @@ static bool check_file(const char *path, off_t *size, Message *message)
  * vertices, indices, and what else it has of each vertex. */
 
 typedef struct Answer {
-    bool read, photometric, own;
+    bool read, photometric, own, turns;
     Scene scene;
     int counts[FILE_LISTS];
     char reason[1024];
@@ -107,6 +107,7 @@ _Noreturn static void read_in_child(const ModelModule *module, const char *path,
     snprintf(answer.reason, sizeof answer.reason, "%.1000s", reason.text);
     answer.photometric = file.photometric;
     answer.own = file.own;
+    answer.turns = file.turns;
     answer.scene = file.scene;
     for (int list = 0; list < FILE_LISTS; list++)
         answer.counts[list] = *scene_file_list(&file, (FileList)list).count;
@@ -170,6 +171,7 @@ static bool take_answer(const char *path, int pipe_end, SceneFile *file, Message
     }
     file->photometric = answer.photometric;
     file->own = answer.own;
+    file->turns = answer.turns;
     file->scene = answer.scene;
     file->scene.light_count = file->scene.object_count = 0;
     for (int list = 0; list < FILE_LISTS; list++) {
@@ -310,6 +312,8 @@ bool scene_file_read(const char *path, ModelUp up, SceneFile *file, Message *mes
     if (done && !check_references(file))
         done = report_end(path, 0, message);
     done = done && check_numbers(path, file, message);
+    if (done && file->turns && file->node_count > 0 && up != MODEL_UP_FILE)
+        file->nodes[0].parent_from_node = scene_file_upright((int)up - MODEL_UP_X, false);
     for (int i = 0; i < file->mesh_count && done; i++)
         tidy(&file->meshes[i]);
     if (!done)

@@ -1,7 +1,16 @@
-/* A page starts no processes. */
+/*
+ * A page starts no processes. But it reads models in a worker: there, where PROCESS_FILE is empty,
+ * a fork goes on as the child, whose answer is written to it; in the page, which gets that file, as
+ * the parent. So what is read is checked as natively.
+ */
 #include "base/process.h"
 
 #include <errno.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define PROCESS_FILE "/answer"
 
 int process_start(pid_t *process, const char *const *arguments, const int files[4])
 {
@@ -17,15 +26,19 @@ bool process_restart(char *const *arguments, const char *const *settings, Messag
 
 pid_t process_fork(int *end, Message *message)
 {
-    *end = -1;
+    struct stat status;
+    *end = open(PROCESS_FILE, O_RDWR);
+    if (*end >= 0 && fstat(*end, &status) == 0)
+        return status.st_size > 0;
     message_set(message, "processes: not in the browser");
     return -1;
 }
 
 size_t process_read(int file, void *bytes, size_t size, double deadline)
 {
-    (void)file, (void)bytes, (void)size, (void)deadline;
-    return 0;
+    (void)deadline;
+    const ssize_t got = read(file, bytes, size);
+    return got < 0 ? 0 : (size_t)got;
 }
 
 int process_wait(pid_t process)

@@ -40,5 +40,12 @@ const Before = (() => {
         draw(now());
     }
 
-    return {draw, toggle};
+    /* The module that draws is another one. */
+    function forget(compiled, now) {
+        engine = opened = null;
+        if (on)
+            toggle(compiled, now);
+    }
+
+    return {draw, toggle, forget};
 })();

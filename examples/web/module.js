@@ -130,8 +130,18 @@ function compileLighting(module = programModule()) {
     return WebAssembly.compile(new Lzma(packed, module.size).unpack());
 }
 
-/* In one file PROBE does the work of both. */
-function programModule() { return typeof LIGHTING === "undefined" ? PROBE : LIGHTING; }
+/* In one file PROBE does the work of both, and for files that were opened what reads them, `now`. */
+function programModule() { return programModule.now || (typeof LIGHTING === "undefined" ? PROBE : LIGHTING); }
+
+function loadScript(name) {
+    return new Promise((resolve, reject) => {
+        const made = document.createElement("script");
+        made.src = name;
+        made.onload = resolve;
+        made.onerror = () => reject(name + ": is not beside this page");
+        document.head.append(made);
+    });
+}
 
 /* A worker that has Engine and runs a function. From a file none is allowed without a server, from a text one is. */
 function startWorker(work, module = programModule()) {
@@ -143,10 +153,11 @@ function startWorker(work, module = programModule()) {
     return worker;
 }
 
-/* One instance: examples/web/page.h in JavaScript. `canvas` gets the WebGL context, and is never shown. */
+/* One instance: examples/web/page.h in JavaScript. `canvas` gets the WebGL context, and is never shown. `compiled` may be
+ * {module, files, answer}, of files.js. */
 class Engine {
     static async open(compiled, canvas) {
-        const engine = new Engine();
+        const engine = new Engine(), {module = compiled, files, answer} = compiled;
         Engine.drawColourless();
         engine.lines = [];
         /* Emscripten waits for done() for ever. */
@@ -155,11 +166,25 @@ class Engine {
             print: line => engine.lines.push(line),
             printErr: line => engine.lines.push(line),
             instantiateWasm(imports, done) {
-                WebAssembly.instantiate(compiled, imports).then(instance => done(instance)).catch(reject);
+                WebAssembly.instantiate(module, imports).then(instance => done(instance)).catch(reject);
                 return {};
             },
         }).then(resolve, reject));
+        if (files)
+            await engine.put(files, answer);
         return engine;
+    }
+
+    /* Where the module looks for files, and what their reader answers (process_web.c). */
+    async put(files, answer) {
+        const {FS} = this.module, bytes = async blob => new Uint8Array(await blob.arrayBuffer());
+        FS.mkdir("/files");
+        FS.chdir("/files");
+        for (const {name, blob} of files) {
+            FS.mkdirTree("/files/" + name.split("/").slice(0, -1).join("/"));
+            FS.writeFile("/files/" + name, await bytes(blob));
+        }
+        FS.writeFile("/answer", await bytes(answer));
     }
 
     /* The context keeps the sources, vertex shader's first, of the last program with which it drew by lighting.vert. */

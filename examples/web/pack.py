@@ -1,6 +1,6 @@
 """Packs the module and the pages into a folder that works by double click.
 
-    pack.py SOURCE_FOLDER MODULE_JS LABS_MODULE_JS PROBE_JS FOLDER FOLDER/PROGRAM... labs/LAB...
+    pack.py SOURCE_FOLDER MODULE_JS LABS_MODULE_JS PROBE_JS READER_JS FOLDER FOLDER/PROGRAM... labs/LAB...
 
 FOLDER gets index.html, book.html and labs.html, a page for each program, chapter and lab, what they share, and .lighting, the
 list of all; FOLDER/single has each page of a program or lab as one file. LIGHTING_NATIVE in the environment is the folder of
@@ -80,11 +80,20 @@ SHADERS = '<section aria-labelledby="shaders-heading" id="editor">\n<h2 id="shad
 ASSEMBLED = """<details id="assembled"><summary>The shader that lights, as assembled for this scene</summary>
 <p><small>What the driver gets, without the parts that this scene's conditions leave out. It is made of the files below.</small></p>
 <pre tabindex="0"></pre></details>\n"""
+# See files.js.
+FILES = """<section aria-labelledby="files-heading">
+<h2 id="files-heading">%s</h2>
+<div class="row"><button type="button" id="choose-file">Choose OBJ or glTF</button></div>
+<input type="file" id="file" multiple accept=".obj,.mtl,.gltf,.glb,.bin,.png,.jpg,.jpeg,.bmp,.tga" aria-label="Files of the model" hidden>
+<p><small>Or drop it on the page: a file, all files of a model, or their folder. What reads it is loaded then, %.0f kB, once.</small></p>
+<p id="files-said" role="status"></p>
+</section>
+"""
 EXPLAIN = """<details id="explain"><summary>What is computed, and why (<code>--explain</code>)</summary>
 <pre id="explained" tabindex="0"></pre></details>"""
 
-root, module, labs_module, probe_module, site = (pathlib.Path(path) for path in sys.argv[1:6])
-paths = [path.split("/") for path in sys.argv[6:]]
+root, module, labs_module, probe_module, reader_module, site = (pathlib.Path(path) for path in sys.argv[1:7])
+paths = [path.split("/") for path in sys.argv[7:]]
 programs = [path for path in paths if path[0] != "labs"]
 labs = [name for folder, name in paths if folder == "labs"]
 here = root / "examples/web"
@@ -178,7 +187,8 @@ def weight(names):
 def page(folder, name, parts, single):
     before = predecessors.get(name)
     link = before if single else f'<a href="{before}.html">{before}</a>'
-    scene = folder == "lighting"
+    scene = folder != "lecture"
+    files = FILES % ("A scene of your own" if folder == "file" else "A model instead of the shape", weight(["reader.js"]))
     more = EXPLAIN if scene else ""
     if before:
         more = (f"<details class=\"diff\"><summary>What differs from {before}</summary>\n<p>The predecessor is {link}.</p>\n"
@@ -186,9 +196,21 @@ def page(folder, name, parts, single):
     links = "" if single else '<nav aria-label="Pages"><a href="index.html">All programs</a></nav>'
     shaders = SHADERS % (ASSEMBLED if scene else "", EDITOR % ("shader file", ALL)) + more
     # A lecture program is its shaders; a scene its options.
-    return fill("program.html", name=name, summary=html.escape(summary(folder, name)), links=links,
+    return fill("program.html", name=name, files=files if reads_files(folder, name) and not single else "", summary=html.escape(summary(folder, name)), links=links,
                 first="" if scene else shaders, last=shaders if scene else "", exact=EXACT if scene else NO_SCENE,
                 only="<code>--error</code>, " if scene else "", pointed=" ".join(POINTED), weight=f"{weight([*POINTED, 'pixel.css']):.0f}", **parts)
+
+
+def scripts_of(folder, name):
+    """Those of a page: lecture programs have no scene, and Scene has nothing to draw before there is a file."""
+    scripts = [script for script in PROGRAM if folder != "lecture" or script != "assembled.js"]
+    if reads_files(folder, name):
+        scripts.insert(-1, "files.js")
+    return scripts[1:] if folder == "file" else scripts
+
+
+def reads_files(folder, name):
+    return folder == "file" or "SHAPE_PARAMETERS" in read(root / "examples" / folder / (name + ".c"))
 
 
 def card(folder, name):
@@ -265,6 +287,7 @@ def main():
     (site / "single").mkdir(parents=True)
     write(site / "lighting.js", module_js("LIGHTING", module))
     write(site / "probe.js", module_js("PROBE", probe_module))
+    write(site / "reader.js", module_js("READER", reader_module))
     for path in [*here.glob("*.js"), *here.glob("*.css")]:
         write(site / path.name, stripped(read(path)))
     cards = {group: "".join(card(folder, name) for folder, name in programs if folder == group)
@@ -272,9 +295,10 @@ def main():
     version = re.search(r'VERSION "(.*)"', read(pathlib.Path("common/base/version.h"))).group(1)
     write(site / "index.html", fill("index.html", version=html.escape(version), **cards, **shared(INDEX)))
     for folder, name in programs:
-        scripts = [script for script in PROGRAM if folder == "lighting" or script != "assembled.js"]
+        scripts = scripts_of(folder, name)
         write(site / f"{name}.html", page(folder, name, shared(scripts), False))
-        write(site / "single" / f"{name}.html", page(folder, name, alone(scripts), True))
+        if folder != "file":
+            write(site / "single" / f"{name}.html", page(folder, name, alone([each for each in scripts if each != "files.js"]), True))
     write_labs()
     write_book()
     write(site / "qrcode.js", qr_library())

@@ -23,8 +23,12 @@ static const char *const SHOWN[] = {
     "alpha",       "full",     "clamp",   "linear-light", "terms",         "light-at",
     "light-color", "lighting", "shadows", "shadow-bias",  "shadow-filter", "show-clipped",
     "clamp-dots",  "normals",  NULL};
-/* What a program has itself, but no page: files. */
-static const char *const ABSENT[] = {"model", "up", NULL};
+/* What a program has itself, but no page: files, unless its module reads them. */
+static const char *const ABSENT[] = {
+#ifndef PAGE_FILES
+    "model", "up",
+#endif
+    NULL};
 
 PageState page;
 

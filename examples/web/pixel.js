@@ -6,7 +6,7 @@ const Pixel = (() => {
     const part = id => document.getElementById(id);
     const STILL = 150; /* ms without another picture */
     let of = null; /* the picture with the pixel that is explained */
-    let worker = null, compiled = null, device = "", timer = 0, count = 0;
+    let worker = null, compiled = null, drawn = null, device = "", timer = 0, count = 0;
     let asked = null, next = null; /* pixels of the line */
     let open = null, said = null, shown = ""; /* the pixel that is explained, and how; the value that is shown */
     let layers = null, section = null;
@@ -50,11 +50,17 @@ const Pixel = (() => {
     /* {text, picture} or {message}. */
     async function ask(what, values, from = of) {
         const task = from.task();
-        compiled ||= compileLighting(probe());
+        const [used, source] = from.module?.() || [await (compiled ||= compileLighting(probe())), probe()];
         device ||= AS || Precision.device();
-        const data = {id: ++count, compiled: await compiled, task, device, what, values};
+        const data = {id: ++count, compiled: used, task, device, what, values};
+        if (drawn !== used) {
+            worker?.terminate();
+            waiting.clear();
+            worker = null;
+            drawn = used;
+        }
         if (!worker) {
-            worker = startWorker(work, probe());
+            worker = startWorker(work, source);
             worker.onmessage = ({data}) => { waiting.get(data.id)(data); waiting.delete(data.id); };
         }
         return new Promise(resolve => { waiting.set(data.id, resolve); worker.postMessage(data); });

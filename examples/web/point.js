@@ -6,21 +6,11 @@ const Point = (() => {
     const clamp = (x, size) => Math.min(size - 1, Math.max(0, x));
     let loading = null;
 
-    function script(name) {
-        return new Promise((resolve, reject) => {
-            const made = document.createElement("script");
-            made.src = name;
-            made.onload = resolve;
-            made.onerror = () => reject(name + ": is not beside this page");
-            document.head.append(made);
-        });
-    }
-
     /* In one file all is there. */
     function load() {
         const there = name => typeof Pixel !== "undefined" || [...document.scripts].some(({src}) => src.endsWith("/" + name));
         const names = document.body.dataset.pointed.split(" ").filter(name => !there(name));
-        return loading ||= names.reduce((before, name) => before.then(() => script(name)), Promise.resolve());
+        return loading ||= names.reduce((before, name) => before.then(() => loadScript(name)), Promise.resolve());
     }
 
     /* `of`: {canvas; line, which says what is there; picture(), the last ImageData; task(), what the worker draws; editor(), or none;

@@ -5,6 +5,7 @@ const Page = (() => {
     const SAMPLES = 31; /* of the frame time */
     const LONGEST = 1000; /* letters of a message */
     const {element} = Controls;
+    const files = typeof Files === "undefined" ? null : Files;
     const part = id => document.getElementById(id);
     const page = {
         name: document.body.dataset.program,
@@ -23,7 +24,8 @@ const Page = (() => {
 
     /* What the module is opened with. */
     function lines(values) {
-        return [page.name, ...[...values].map(([name, value]) => "--" + name + (value === true ? "" : "=" + value))];
+        return [page.name, ...[...values].map(([name, value]) => "--" + name + (value === true ? "" : "=" + value)),
+                ...files?.arguments() || []];
     }
 
     /* What time and camera come to by playing and dragging has few digits, and is drawn as the link and the command have it;
@@ -393,8 +395,37 @@ const Page = (() => {
         const {absent} = page.program;
         const models = absent.includes("model");
         part("absent").textContent = absent.length ? " Of this program's own options: --" + absent.join(", --") + "." : "";
-        Controls.refuseFiles(name => fail(name + ": a page reads no files" +
-            (models ? "; models are drawn natively: examples/run " + page.name + " --model FILE" : "")));
+        if (!files)
+            Controls.refuseFiles(name => fail(name + ": this page reads no files" + (models ?
+                ": the page beside others reads models, in one file it is without" : "; Scene.html reads models and scenes")));
+    }
+
+    /* What was read is drawn by the module that read it, with options, texts and camera as they are. */
+    async function takeFiles(compiled) {
+        const engine = await Engine.open(compiled, newCanvas());
+        if (!page.engine)
+            return begin(compiled, engine);
+        page.engine.close();
+        page.compiled = compiled;
+        page.engine = engine;
+        engine.replace(page.texts);
+        Before.forget(compiled, now);
+        page.noted = null;
+        fillControls();
+        page.undo.clear();
+        const message = update();
+        if (message)
+            throw message;
+        tellEffects();
+    }
+
+    function fillControls() {
+        const hidden = files ? [files.option] : [];
+        page.program = page.engine.json("programs").find(({name}) => name === page.name);
+        part("options").replaceChildren();
+        page.controls = Controls.fill(part("options"), page.program.options.filter(each => shows(each) && !hidden.includes(each.name)), change);
+        for (const folded of part("options").querySelectorAll("details"))
+            folded.open = Boolean(embedded);
     }
 
     function listen() {
@@ -403,7 +434,7 @@ const Page = (() => {
         canvas.addEventListener("keydown", press);
         listenToPointers(canvas);
         if (!embedded)
-            page.point = Point.open({canvas, line: part("pixel-line"), picture: () => page.picture, editor: () => page.editor,
+            page.point = Point.open({canvas, line: part("pixel-line"), picture: () => page.picture, module: () => files?.module(), editor: () => page.editor,
                                      task: () => ({lines: lines(current()), texts: page.texts}),
                                      put: section => document.querySelector("main > :last-child").prepend(section)});
         click("play", () => play(!page.playing));
@@ -473,30 +504,42 @@ const Page = (() => {
         return page.program.scene ? files : files.sort((a, b) => b.text.length - a.text.length);
     }
 
-    async function open() {
-        document.body.classList.toggle("embed", Boolean(embedded));
-        const begin = performance.now();
+    async function begin(compiled, engine) {
+        const start = performance.now();
         page.drawn = new Map();
-        page.compiled = await compileLighting();
-        page.engine = await Engine.open(page.compiled, newCanvas());
-        page.program = page.engine.json("programs").find(({name}) => name === page.name);
-        page.controls = Controls.fill(part("options"), page.program.options.filter(shows), change);
-        for (const folded of part("options").querySelectorAll("details"))
-            folded.open = Boolean(embedded);
+        page.compiled = compiled;
+        page.engine = engine;
+        fillControls();
         page.undo = Undo.open(state, update, message => { part("status").textContent = message; });
         listTries();
         listAbsent();
         listen();
+        part("embed").hidden = files?.option === "file"; /* it would have no file */
         follow();
         if (!page.picture)
             return;
-        part("status").textContent = embedded ? "" : "First picture after " + (performance.now() - begin).toFixed(0) + " ms.";
+        part("status").textContent = embedded ? "" : "First picture after " + (performance.now() - (page.begun || start)).toFixed(0) + " ms.";
         page.editor = Editor.open(part("editor"), "lighting " + page.name, shaders(), replace);
         await Lent.open(page.editor, {note, fail, draw: replace});
         page.undo.clear();
         document.body.dataset.ready = "yes";
         if (/[?&]as=/.test(location.search))
             page.point?.show();
+    }
+
+    /* Scene's page has nothing to draw before a file is chosen. */
+    async function open() {
+        document.body.classList.toggle("embed", Boolean(embedded));
+        files?.listen(takeFiles, fail);
+        page.begun = performance.now();
+        if (files?.option === "file") {
+            page.begun = 0;
+            part("status").textContent = "Choose a scene, or drop it on the page.";
+            document.body.dataset.ready = "yes";
+            return;
+        }
+        const compiled = await compileLighting();
+        await begin(compiled, await Engine.open(compiled, newCanvas()));
     }
 
     open().catch(error => {

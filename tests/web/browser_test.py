@@ -32,6 +32,7 @@ import firefox_pages
 from book_pages import Book
 from firefox_pages import InFirefox
 from labs_pages import Accessible, Corpus, Labs, Verdicts
+from model_pages import Models
 from pixel_pages import Pixels
 from sharing_pages import Sharing, Working
 from pages import CONFIRM, EXAMPLES, RENDERER, SITE, SOURCE, Case, address, differences, make, native
@@ -943,7 +944,7 @@ class Pages(Case):
 
 
 # Those that take longest first.
-CLASSES = ["Parity", "Verdicts", "Corpus", "Book", "Accessible", "InFirefox", "Labs", "Pages", "Pixels", "Sharing", "Working",
+CLASSES = ["Parity", "Verdicts", "Corpus", "Book", "Accessible", "InFirefox", "Labs", "Pages", "Pixels", "Models", "Sharing", "Working",
            "SwiftShader"]
 
 

@@ -4,6 +4,7 @@ import unittest
 
 import firefox
 from labs_pages import SHADERS, SOLUTION, OfLabs, check, mistakes, said
+from model_pages import OfModels
 from pages import RENDERER, address, differences, native
 
 MISSING = firefox.missing()
@@ -11,7 +12,7 @@ SAYS_MEDIUMP = ("PointLightedCube_perFragment", "PointLightedSphere_perFragment"
 
 
 @unittest.skipIf(MISSING, f"{MISSING}: not found")
-class InFirefox(OfLabs):
+class InFirefox(OfLabs, OfModels):
     @classmethod
     def start(cls):
         return firefox.Firefox()
@@ -39,6 +40,10 @@ class InFirefox(OfLabs):
         for name in SAYS_MEDIUMP:
             with self.subTest(name, renderer=renderer):
                 self.assertEqual(self.of_page(name, "time=1.3")[1], 0)
+
+    def test_models(self):
+        self.assert_drawn("Scene", self.moving(), ("time=1.3", "camera=fit"))
+        self.assert_drawn("ShadingModels", self.roof(), ("precision=highp",))
 
     def test_a_page_as_one_file(self):
         self.open("single/Shadows", "precision=highp")

@@ -12,7 +12,7 @@ import unittest
 import browser
 
 EXAMPLES, PAGE_NATIVE, SOURCE = (os.path.abspath(path) for path in sys.argv[1:4])
-SITE = os.path.join(os.path.dirname(EXAMPLES), "pages")
+SITE = os.environ.get("SITE") or os.path.join(os.path.dirname(EXAMPLES), "pages")
 
 RENDERER = """(() => {
     const gl = Page.page.engine.module.canvas.getContext("webgl2");
