@@ -90,11 +90,13 @@ const Files = (() => {
     function listen(take, say) {
         const begin = async files => {
             part("files-said").textContent = "";
+            const before = [name, taken, programModule.now];
             try {
                 taken = await open(await files);
                 await take(taken);
                 part("files-said").textContent = name + " is drawn. It stays on this device; a link does not have it.";
             } catch (error) {
+                [name, taken, programModule.now] = before;
                 part("files-said").textContent = "";
                 say(String(error));
             }

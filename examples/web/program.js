@@ -403,12 +403,14 @@ const Page = (() => {
     /* What was read is drawn by the module that read it, with options, texts and camera as they are. */
     async function takeFiles(compiled) {
         const engine = await Engine.open(compiled, newCanvas());
+        engine.replace(page.texts);
+        if (engine.run(lines(page.engine ? page.values : new Map())) !== 0)
+            throw engine.message;
         if (!page.engine)
             return begin(compiled, engine);
         page.engine.close();
         page.compiled = compiled;
         page.engine = engine;
-        engine.replace(page.texts);
         Before.forget(compiled, now);
         page.noted = null;
         fillControls();

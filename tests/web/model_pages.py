@@ -187,6 +187,7 @@ class Models(OfModels):
         self.assert_native()
         # One that is bad leaves what is drawn.
         self.assertIn("cannot read", self.drop("words.gltf"))
+        self.assertIn("no triangle", self.drop("lines.obj"))
         self.set("time", "1")
         self.assert_native()
         self.assertEqual(self.page.complaints(), [])
