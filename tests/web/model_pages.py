@@ -10,6 +10,7 @@ import subprocess
 import tempfile
 
 from pages import EXAMPLES, PAGE_NATIVE, Case
+from pixel_pages import Pixels
 
 MODELS = "/usr/share/assimp/models*"  # of Debian's assimp-testmodels
 DROP = """(() => {
@@ -140,10 +141,9 @@ class Models(OfModels):
         self.assertEqual(result, json.loads(answer))
         told = subprocess.run([os.path.join(EXAMPLES, "Scene"), "moving.gltf", "--probe", "200,220", "--format", "json"], check=True,
                               capture_output=True).stdout
-        self.page.run("""(() => { const canvas = document.getElementById("picture"), box = canvas.getBoundingClientRect();
-            const at = {clientX: box.left + 200.5 / 400 * box.width, clientY: box.top + 220.5 / 400 * box.height, bubbles: true};
-            canvas.dispatchEvent(new PointerEvent("pointerdown", at));
-            canvas.dispatchEvent(new MouseEvent("click", at)); })()""")
+        x, y = Pixels.at(self, (200, 220))
+        self.page.mouse("mousePressed", x, y)
+        self.page.mouse("mouseReleased", x, y)
         self.page.wait("document.getElementById('pixel') && document.getElementById('pixel').dataset.milliseconds")
         self.assertEqual(self.page.run("Pixel.said()"), json.loads(told))
         self.assertEqual(self.page.complaints(), [])
