@@ -511,6 +511,7 @@ const Page = (() => {
         page.drawn = new Map();
         page.compiled = compiled;
         page.engine = engine;
+        document.body.classList.remove("waits");
         fillControls();
         page.undo = Undo.open(state, update, message => { part("status").textContent = message; });
         listTries();
@@ -536,6 +537,7 @@ const Page = (() => {
         page.begun = performance.now();
         if (files?.option === "file") {
             page.begun = 0;
+            document.body.classList.add("waits");
             part("status").textContent = "Choose a scene, or drop it on the page.";
             document.body.dataset.ready = "yes";
             return;
