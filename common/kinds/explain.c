@@ -52,12 +52,12 @@ static char *effects_text(const LightingPlan *plan, int object)
     return output_text_close(&text);
 }
 
-/* Writes an object's effects, or which earlier object has the same; false then. */
-static bool write_effects(const Renderer *renderer, const LightingPlan *plan, int number,
-                          int object, Explained *explained, FILE *file)
+/* Ends a heading. Writes an object's effects, or which earlier object has the same; false then. */
+static bool write_effects(const LightingPlan *plan, int number, int object, Explained *explained,
+                          FILE *file)
 {
     char *text = effects_text(plan, object);
-    fprintf(file, "# %s, view %d, object %d\n", renderer->example->name, number, object);
+    fputc('\n', file);
     for (int i = 0; i < explained->count; i++) {
         const ExplainedObject *earlier = &explained->all[i];
         if (strcmp(earlier->text, text) == 0) {
@@ -93,8 +93,12 @@ void explain_effects(Renderer *renderer, const DrawRequest *request, FILE *file)
         LightingPlan plan = {.lighting = NULL};
         if (scene_view_open(&view, renderer, request, request->seconds, number, NULL) &&
             plan_view(&plan, renderer, request, &view, NULL))
-            for (int i = 0; i < view.scene.object_count; i++)
-                write_effects(renderer, &plan, number, i, &explained, file);
+            for (int i = 0; i < view.scene.object_count; i++) {
+                const char *name = view.scene.objects[i].name;
+                fprintf(file, "# %s, view %d, object %d%s%s", renderer->example->name, number, i,
+                        name && name[0] ? ", " : "", name ? name : "");
+                write_effects(&plan, number, i, &explained, file);
+            }
         lighting_plan_close(&plan);
         scene_view_close(&view);
     }
@@ -360,7 +364,8 @@ static void explain_objects(const Renderer *renderer, const LightingPlan *plan, 
             explain_object(renderer, plan, said, explained);
             continue;
         }
-        if (write_effects(renderer, plan, number, i, explained, stdout))
+        printf("# %s, view %d, object %d", renderer->example->name, number, i);
+        if (write_effects(plan, number, i, explained, stdout))
             print_operations(plan, i, true);
         printf("\n");
     }

@@ -251,6 +251,7 @@ void file_scene_make(FileScene *made, double seconds, Scene *scene)
     *scene = file->scene;
     for (int i = 0; i < file->object_count; i++) {
         made->objects[i] = file->objects[i].object;
+        made->objects[i].name = file->objects[i].name;
         made->objects[i].mesh = &file->meshes[file->objects[i].mesh];
         made->objects[i].world_from_object = made->poses[file->objects[i].node];
     }

@@ -65,6 +65,7 @@ extern const char *const SHADOW_FILTER_NAMES[]; /* "nearest", "2x2" */
 enum { SHADOW_MAP_MIN = 16, SHADOW_MAP_MAX = 8192 };
 
 typedef struct Object {
+    const char *name; /* NULL: none */
     const Mesh *mesh;
     Solid solid;       /* the exact shape; zeroed, or if the mesh has colors: the triangles */
     bool flat;         /* the three normals of each triangle are equal */

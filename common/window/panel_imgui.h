@@ -32,6 +32,7 @@ struct Context {
     const char *reset_sign = "<";
     unsigned generation = 0;
     Typing typing = {};
+    int object = 0;         // whose effects are shown, of many: by its place in the list
     float other_height = 0; // of the panel without its list of effects, in the frame before
     const PanelInput *input = nullptr; // of this frame
     std::vector<PanelVertex> vertices;
