@@ -27,11 +27,15 @@ static bool vec3_is_finite(Vec3 a)
     return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);
 }
 
-/* A finite `a` divided by the power of two that brings its largest component into [0.5, 1): exact
- * except for components that are negligible beside the largest. */
+/* A finite `a` divided by the power of two that brings its largest component into [0.5, 1), unless
+ * its squares are in range: exact except for components that are negligible beside the largest. */
 static Vec3 vec3_scaled(Vec3 a, int *exponent)
 {
-    frexp(fmax(fmax(fabs(a.x), fabs(a.y)), fabs(a.z)), exponent);
+    const double largest = fmax(fmax(fabs(a.x), fabs(a.y)), fabs(a.z));
+    *exponent = 0;
+    if (largest > 0x1p-200 && largest < 0x1p200)
+        return a;
+    frexp(largest, exponent);
     return (Vec3){ldexp(a.x, -*exponent), ldexp(a.y, -*exponent), ldexp(a.z, -*exponent)};
 }
 
@@ -68,7 +72,8 @@ double vec3_length(Vec3 a)
         return fabs(a.x) + fabs(a.y) + fabs(a.z);
     int exponent;
     Vec3 scaled = vec3_scaled(a, &exponent);
-    return ldexp(sqrt(vec3_dot(scaled, scaled)), exponent);
+    const double length = sqrt(vec3_dot(scaled, scaled));
+    return exponent ? ldexp(length, exponent) : length;
 }
 
 bool vec3_normalize(Vec3 a, Vec3 *unit)
