@@ -92,17 +92,6 @@ TEST(each_light_reflection_and_viewer_has_its_closed_form)
     }
 }
 
-TEST(several_lights_have_the_sum_of_their_closed_forms)
-{
-    for (int turn = 0; turn < TURNS; turn++) {
-        closed_form_world(&smooth_sphere, (Turn)turn);
-        world.scene.light_count = 3;
-        for (int i = 0; i < 3; i++)
-            world.lights[i] = light_of(i, 7, KINDS[3 * i]);
-        assert_true(assert_closed_form(&world.scene, "closed-form-three") > SIZE * SIZE / 8);
-    }
-}
-
 TEST(attenuation_has_its_closed_form)
 {
     static const Vec3 factors[] = {{0, 0, 0}, {2, 0, 0}, {0, 0.5, 0}, {0, 0, 0.2}, {0.3, 0.2, 0.1}};
@@ -159,18 +148,6 @@ TEST(a_negative_cosine_takes_light_away)
         world.scene.signed_dots = false;
         assert_true(assert_closed_form(&world.scene, "closed-form-signed") > SIZE * SIZE / 8);
         assert_true(taken + 8 < pixel(&specialised, SIZE / 2, SIZE / 2)[0]);
-    }
-}
-
-/* On a plane under a distant light, lighting at the vertices is lighting everywhere; a sphere of
- * many triangles has the closed form at its vertices, and little else in between. */
-TEST(gouraud_has_the_closed_form_where_triangles_are_small)
-{
-    for (int kind = 0; kind < 4; kind++) {
-        closed_form_world(&smooth_sphere, (Turn)kind);
-        world.lights[0] = light_of(0, 7, KINDS[kind]);
-        world.scene.interpolation = INTERPOLATION_GOURAUD;
-        assert_true(assert_closed_form(&world.scene, "closed-form-gouraud") > SIZE * SIZE / 8);
     }
 }
 
