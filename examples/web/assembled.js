@@ -66,5 +66,33 @@ const Assembled = (() => {
         return lines.join("\n").replace(/\n{3,}/g, "\n\n").trim() + "\n";
     }
 
-    return {read};
+    /* What --explain --verbose prints: of each line that an effect calls for, "group.glsl:123  sum += ...", by its text. */
+    function receipts(text) {
+        const found = new Map();
+        let effect = "", light = "";
+        for (const line of text.split("\n")) {
+            const [, place, source] = line.match(/^ {6}(\S+) {2}(.*)$/) || [];
+            if (place) {
+                const key = source.replace(/\.\.\.$/, "");
+                found.set(key, new Set(found.get(key)).add(effect));
+                continue;
+            }
+            light = /^light \d+/.test(line) ? line.match(/^light \d+/)[0] + ", " : line.startsWith("  ") ? light : "";
+            effect = light + line.trim().replace(/:.*/, "");
+        }
+        return found;
+    }
+
+    /* The text's lines, each with the effects that call for it at its end. */
+    function show(text, said) {
+        const found = [...receipts(said)];
+        return text.split("\n").map(line => {
+            const code = line.replace(/\/\/.*/, "").trim();
+            const effects = found.filter(([key]) => code && (code === key || key.length > 60 && code.startsWith(key)));
+            const names = [...new Set(effects.flatMap(([, names]) => [...names]))].join("; ");
+            return [line, names && Controls.element("span", {"data-by": names}), "\n"];
+        }).flat();
+    }
+
+    return {read, show};
 })();

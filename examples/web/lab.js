@@ -4,7 +4,7 @@ const Lab = (() => {
     const WAIT = 200; /* ms after the time's last change until the exact picture */
     const {element} = Controls;
     const part = id => document.getElementById(id);
-    const lab = {name: document.body.dataset.lab, compiled: null, files: [], texts: new Map(), seconds: 1, editor: null};
+    const lab = {name: document.body.dataset.lab, path: document.body.dataset.lab, own: null, compiled: null, files: [], texts: new Map(), seconds: 1, editor: null};
     const short = message => message.replace(/\/tmp\/mine\//g, "");
     /* Set while a text is drawn: if it is there when the page opens, that text may have hung the page. */
     const RUNNING = "lighting drawing " + lab.name;
@@ -28,7 +28,7 @@ const Lab = (() => {
 
     async function ask(task) {
         mark(true);
-        const answer = await LabWorker.ask({compiled: lab.compiled, lab: lab.name, texts: lab.texts, ...task});
+        const answer = await LabWorker.ask({compiled: lab.compiled, lab: lab.path, own: lab.own, texts: lab.texts, ...task});
         if (answer)
             mark(false);
         return answer;
@@ -45,6 +45,8 @@ const Lab = (() => {
         for (const id of ["drawn", "expected", "difference"])
             if (answer[id])
                 Controls.paint(part(id), answer[id]);
+        if (exact)
+            lab.pictures = [answer.drawn, answer.expected, answer.difference];
         lab.picture = answer.drawn;
         lab.shown = lab.texts;
         if (exact)
@@ -103,6 +105,23 @@ const Lab = (() => {
         part("result").replaceChildren(...nodes);
     }
 
+    const task = texts => ({lines: [lab.path], lab: true, own: lab.own, texts, seconds: lab.seconds});
+
+    /* Where, and in which value, the mistake shows first in the picture of the page. Its text is the student's, as checked. */
+    async function showFirst(mistakes) {
+        const texts = new Map(lab.files.map(({name, text}) => [name, lab.texts.get(name) ?? text]));
+        try {
+            await Point.load();
+            const drawn = await draw(true) === "" && lab.pictures;
+            const nodes = drawn ? await Wrong.explain(mistakes, texts, lab.pictures, task) : [];
+            if (nodes.length)
+                part("result").querySelector(":scope > details:last-child").before(element("details", {},
+                    element("summary", {}, "Hint: where it shows first"), ...nodes));
+        } catch (error) {
+            part("error").textContent = String(error);
+        }
+    }
+
     /* As natively: other scenes each time. */
     async function check(seed = crypto.getRandomValues(new Uint32Array(1))[0] & 0x7fffffff) {
         lab.texts = lab.editor.texts();
@@ -116,12 +135,14 @@ const Lab = (() => {
         }
         tell(answer);
         Progress.keep(lab.name, answer.verdict);
+        if (answer.verdict.verdict === "wrong")
+            await showFirst(answer.verdict.mistakes);
         return answer.verdict;
     }
 
     /* `check --class` tells students apart by the archives' names. */
     function handIn() {
-        const number = lab.name.slice(0, 5);
+        const number = lab.own ? lab.name : lab.name.slice(0, 5);
         const student = part("student").value.trim().replace(/[^\p{L}\p{N}._-]+/gu, "_").replace(/^[._-]+/, "");
         const texts = lab.editor.texts();
         const all = new Map(lab.files.map(({name, text}) => [name, texts.has(name) ? texts.get(name) : text]));
@@ -147,7 +168,7 @@ const Lab = (() => {
             part("check").addEventListener("click", () => check());
         LabWorker.lost = () => draw(true);
         lab.point = Point.open({canvas: part("drawn"), line: part("pixel-line"), picture: () => lab.picture, editor: () => lab.editor,
-                                task: () => ({lines: [lab.name], lab: true, texts: lab.shown, seconds: lab.seconds}),
+                                task: () => task(lab.shown),
                                 put: section => part("compared").before(section)});
         Controls.refuseFiles(name => {
             part("error").textContent = name + ": a page reads no files; paste its text into the editor";
@@ -156,11 +177,10 @@ const Lab = (() => {
 
     async function open() {
         const hung = isMarked();
+        if (typeof OWN !== "undefined")
+            Object.assign(lab, {own: JSON.parse(new TextDecoder().decode(unpack(OWN))), path: "/own/" + lab.name});
         lab.compiled = await compileLighting();
-        const answer = await ask({what: "labs"});
-        if (!answer || answer.message)
-            throw answer ? answer.message : "no answer";
-        lab.files = answer.labs.find(({name}) => name === lab.name).files;
+        lab.files = JSON.parse(document.body.dataset.files);
         lab.editor = Editor.open(part("editor"), "lighting " + lab.name, lab.files, apply);
         listen();
         part("time").value = part("slider").value = lab.seconds; /* a browser may have filled in others */

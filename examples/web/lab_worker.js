@@ -42,8 +42,8 @@ const LabWorker = (() => {
                 }
                 if (data.what === "lose")
                     return engine.module.canvas.getContext("webgl2").getExtension("WEBGL_lose_context").loseContext();
-                if (data.what === "labs")
-                    return self.postMessage({labs: engine.json("labs")});
+                if (data.own && !engine.own)
+                    engine.own = Object.entries(data.own).every(([name, text]) => engine.put(data.lab + "/" + name, text));
                 if (engine.run([data.lab]) !== 0 || !engine.replace(data.texts))
                     throw engine.message;
                 self.postMessage(data.what === "check" ? check(data) : draw(data));
@@ -101,7 +101,7 @@ const LabWorker = (() => {
         worker.postMessage(job.task);
     }
 
-    /* {compiled, what: "labs", "draw" or "check", ...}. One task at a time; of those of a kind that wait the last is done,
+    /* {compiled, what: "draw" or "check", ...}. One task at a time; of those of a kind that wait the last is done,
      * and the others are answered by null. */
     function ask(task) {
         return new Promise(resolve => {

@@ -1,5 +1,5 @@
 "use strict";
-/* The compiled programs. lighting.js, which the build makes, has LIGHTING: `wasm`, LZMA in base64, `size`, how long that is
+/* The compiled programs. lighting.js, which the build makes, has LIGHTING: `packed`, LZMA in base64, `size`, how long that is
  * unpacked, and factory(), which returns Emscripten's createLighting; probe.js has PROBE likewise. This file's functions also
  * run in a worker, as their own text. */
 
@@ -126,8 +126,11 @@ class Lzma {
 
 /* Instances of the module share what is compiled. */
 function compileLighting(module = programModule()) {
-    const packed = Uint8Array.from(atob(module.wasm), letter => letter.charCodeAt(0));
-    return WebAssembly.compile(new Lzma(packed, module.size).unpack());
+    return WebAssembly.compile(unpack(module));
+}
+
+function unpack({packed, size}) {
+    return new Lzma(Uint8Array.from(atob(packed), letter => letter.charCodeAt(0)), size).unpack();
 }
 
 /* In one file PROBE does the work of both, and for files that were opened what reads them, `now`. */
@@ -237,9 +240,9 @@ class Engine {
         return new ImageData(new Uint8ClampedArray(bytes.buffer), width, height);
     }
 
-    explain() {
+    explain(receipts = false) {
         this.lines = [];
-        const done = this.module.ccall("page_explain", "number", [], []) === 1;
+        const done = this.module.ccall("page_explain", "number", ["number"], [+receipts]) === 1;
         return done ? this.lines.join("\n") : this.message;
     }
 
@@ -255,6 +258,9 @@ class Engine {
             return put(long);
         return files.length ? files.every(put) : put(["", new Uint8Array()]);
     }
+
+    /* A file of a lab that is not the module's. */
+    put(path, text) { return this.module.ccall("page_own", "number", ["string", "string"], [path, text]) === 1; }
 
     close() { this.module.ccall("page_close", null, [], []); }
 }

@@ -1,6 +1,9 @@
 """Packs the module and the pages into a folder that works by double click.
 
     pack.py SOURCE_FOLDER MODULE_JS LABS_MODULE_JS PROBE_JS READER_JS FOLDER FOLDER/PROGRAM... labs/LAB...
+    pack.py --own SOURCE_FOLDER FOLDER LAB_FOLDER...
+
+The second adds pages of other labs, each a folder whose picture is FOLDER/NAME.png, to a FOLDER of the first.
 
 FOLDER gets index.html, book.html and labs.html, a page for each program, chapter and lab, what they share, and .lighting, the
 list of all; FOLDER/single has each page of a program or lab as one file. LIGHTING_NATIVE in the environment is the folder of
@@ -13,6 +16,7 @@ import difflib
 import gzip
 import hashlib
 import html
+import json
 import lzma
 import os
 import pathlib
@@ -34,7 +38,7 @@ BORROW = ["precision.js", "qrcode.js", "borrow.js"]
 LAB = ["labs_module.js", "module.js", "progress.js", "lab_worker.js", "png.js", "zip.js", "controls.js",
        "editor.js", "wipe.js", "point.js", "lab.js"]
 # The labs' module runs shaders itself.
-LAB_POINTED = ["precision.js", "pixel.js"]
+LAB_POINTED = ["precision.js", "pixel.js", "wrong.js"]
 CHECK = """<div class="row"><button type="button" id="check">Check</button></div>
 <p><small>Draws your files in a dozen scenes and says what is wrong, as <code>check</code> does natively.</small></p>"""
 NO_CHECK = """<p>This lab is written in C, which the browser does not compile. Check it natively:
@@ -78,8 +82,11 @@ ALL = '\n<button type="button" class="all">Save all as ZIP</button>'
 SHADERS = '<section aria-labelledby="shaders-heading" id="editor">\n<h2 id="shaders-heading">Shaders</h2>\n%s%s\n</section>\n'
 # Effects are of scenes.
 ASSEMBLED = """<details id="assembled"><summary>The shader that lights, as assembled for this scene</summary>
-<p><small>What the driver gets, without the parts that this scene's conditions leave out. It is made of the files below.</small></p>
-<pre tabindex="0"></pre></details>\n"""
+<p><small>What the driver gets, without the parts that this scene's conditions leave out. It is made of the files below. \u2190 names the
+effect that calls for a line.</small></p>
+<pre tabindex="0"></pre>
+<details><summary>The receipt: each effect, and its lines (<code>--explain --verbose</code>)</summary>
+<pre tabindex="0"></pre></details></details>\n"""
 # See files.js.
 FILES = """<section aria-labelledby="files-heading">
 <h2 id="files-heading">%s</h2>
@@ -93,10 +100,15 @@ The command reads other formats, too.</small></p>
 EXPLAIN = """<details id="explain"><summary>What is computed, and why (<code>--explain</code>)</summary>
 <pre id="explained" tabindex="0"></pre></details>"""
 
-root, module, labs_module, probe_module, reader_module, site = (pathlib.Path(path) for path in sys.argv[1:7])
-paths = [path.split("/") for path in sys.argv[7:]]
-programs = [path for path in paths if path[0] != "labs"]
-labs = [name for folder, name in paths if folder == "labs"]
+if sys.argv[1] == "--own":
+    root, site, *own = (pathlib.Path(path) for path in sys.argv[2:])
+    labs = sorted(path.name for path in (root / "examples/labs").glob("lab[0-9][0-9]_*"))
+else:
+    root, module, labs_module, probe_module, reader_module, site = (pathlib.Path(path) for path in sys.argv[1:7])
+    own, paths = [], [path.split("/") for path in sys.argv[7:]]
+    programs = [path for path in paths if path[0] != "labs"]
+    labs = [name for folder, name in paths if folder == "labs"]
+lab_folders = {name: root / "examples/labs" / name for name in labs} | {path.name: path for path in own}
 here = root / "examples/web"
 
 
@@ -122,13 +134,16 @@ predecessors = dict(re.findall(r"X\((\w+), &(\w+)\)", read(root / "examples/less
 assert predecessors, "lessons.c: no LESSON_LIST"
 
 
+def packed(data):
+    """As module.js unpacks it."""
+    filters = [{"id": lzma.FILTER_LZMA1, "preset": 9 | lzma.PRESET_EXTREME, "lc": 3, "lp": 0, "pb": 0}]
+    return {"packed": base64.b64encode(lzma.compress(data, lzma.FORMAT_RAW, filters=filters)).decode(), "size": len(data)}
+
+
 def module_js(name, module):
-    """The module as {wasm, size, factory}; a worker gets the factory's text, too."""
-    wasm = module.with_suffix(".wasm").read_bytes()
-    packed = lzma.compress(wasm, lzma.FORMAT_RAW, filters=[{"id": lzma.FILTER_LZMA1, "preset": 9 | lzma.PRESET_EXTREME, "lc": 3,
-                                                            "lp": 0, "pb": 0}])
-    return ('"use strict";\nconst %s = {wasm: "%s", size: %d, factory: function () {\n%s\nreturn createLighting;\n}};\n'
-            % (name, base64.b64encode(packed).decode(), len(wasm), read(module)))
+    """The module as {packed, size, factory}; a worker gets the factory's text, too."""
+    return ('"use strict";\nconst %s = {...%s, factory: function () {\n%s\nreturn createLighting;\n}};\n'
+            % (name, json.dumps(packed(module.with_suffix(".wasm").read_bytes())), read(module)))
 
 
 def summary(folder, name):
@@ -221,26 +236,56 @@ def card(folder, name):
 
 
 def title(lab):
-    return re.match(r"# (.*)", read(root / "examples/labs" / lab / "TASK.md")).group(1)
+    return re.match(r"# (.*)", read(lab_folders[lab] / "TASK.md")).group(1)
+
+
+def starter(folder):
+    """Its files, as lab_files has them."""
+    described = json.loads(read(folder / "lab.json"))
+    base = described.get("shaders", folder.name.split("_")[0].lower())
+    names = [] if described.get("special") == "matrices" else [base + ".vert", base + ".frag"]
+    names += [described["code"]] if "code" in described else []
+    return [{"name": name, "text": read(folder / name)} for name in names]
 
 
 def lab_page(name, parts, single):
-    at = labs.index(name)
-    beside = [(labs[i], word) for i, word in ((at - 1, "Previous"), (at + 1, "Next")) if 0 <= i < len(labs)]
+    all_labs = list(lab_folders)
+    at = all_labs.index(name)
+    beside = [(all_labs[i], word) for i, word in ((at - 1, "Previous"), (at + 1, "Next")) if 0 <= i < len(all_labs)]
     links = "".join(f' <a href="{lab}.html">{word}</a>' for lab, word in beside)
     links = "" if single else f'<nav aria-label="Pages"><a href="labs.html">All labs</a>{links}</nav>'
     # Without the title and the picture.
-    task = re.sub(r"^# .*\n+!\[.*\n+", "", read(root / "examples/labs" / name / "TASK.md"))
-    task, more = task.replace("## Run and check", "## The same natively").split("\n## What there is\n")
+    task = re.sub(r"^# .*\n+(!\[.*\n+)?", "", read(lab_folders[name] / "TASK.md"))
+    task, what, more = task.replace("## Run and check", "## The same natively").partition("\n## What there is\n")
     note = f"<p>{NOTES[name]}</p>" if name in NOTES else ""
     return fill("lab.html", name=name, title=html.escape(title(name)), task=markdown.to_html(task),
-                more=markdown.to_html("## What there is\n" + more), links=links, note=note,
-                editor=EDITOR % ("file", ""), check=NO_CHECK if name == "lab03_normal_matrix" else CHECK, **parts)
+                files=html.escape(json.dumps(starter(lab_folders[name]))), more=markdown.to_html(what + more), links=links, note=note,
+                editor=EDITOR % ("file", ""), check=NO_CHECK if name == "lab03_normal_matrix" else CHECK,
+                **parts)
 
 
 def lab_card(name):
     return (f'<li><a href="{name}.html"><img src="{name}.png" width="400" height="400" alt="" loading="lazy">'
             f'{html.escape(title(name))}</a><br><small data-lab="{name}"></small></li>\n')
+
+
+def own_js(folder):
+    """Its files, which the page's module reads: not in plain letters, because its solutions are among them."""
+    texts = {str(path.relative_to(folder)): read(path) for path in sorted(folder.rglob("*"))
+             if path.suffix in (".vert", ".frag", ".glsl", ".json", ".c") and path.is_file()}
+    return '"use strict";\nconst OWN = %s;\n' % json.dumps(packed(json.dumps(texts).encode()))
+
+
+def write_own():
+    """Again what lists all labs or links to the next."""
+    write(site / "labs.html", fill("labs.html", cards="".join(map(lab_card, lab_folders)), **shared(LABS)))
+    write(site / f"{labs[-1]}.html", lab_page(labs[-1], shared(LAB), False))
+    for folder in own:
+        name = folder.name
+        write(site / f"own_{name}.js", own_js(folder))
+        scripts = [f"own_{name}.js", *LAB]
+        write(site / f"{name}.html", lab_page(name, shared(scripts), False))
+        write(site / "single" / f"{name}.html", lab_page(name, alone(scripts), True))
 
 
 def write_labs():
@@ -304,8 +349,8 @@ def main():
     write_book()
     write(site / "qrcode.js", qr_library())
     write(site / "precision.html", fill("precision.html", **shared(BORROW)))
-    files = sorted(str(path.relative_to(site)) for path in site.rglob("*") if path.is_file())
-    write(site / ".lighting", "\n".join(files) + "\n")
 
 
-main()
+write_own() if own else main()
+files = sorted(str(path.relative_to(site)) for path in site.rglob("*") if path.is_file() and path.name != ".lighting")
+write(site / ".lighting", "\n".join(files) + "\n")

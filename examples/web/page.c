@@ -356,12 +356,13 @@ const char *page_command(void)
     return page_text_end(file);
 }
 
-int page_explain(void)
+int page_explain(int receipts)
 {
     page.message = (Message){0};
     if (!page.example)
         return 0;
-    const DrawRequest request = options_request(&page.options, page.example);
+    DrawRequest request = options_request(&page.options, page.example);
+    request.verbose = receipts;
     const bool done = renderer_explain(&page.renderer, &request, &page.message);
     fflush(stdout);
     return done;

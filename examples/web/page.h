@@ -34,8 +34,8 @@ const char *page_values(void);
 /* The command that draws the last picture natively. */
 const char *page_command(void);
 
-/* Writes on standard output what --explain does. 0 on failure. */
-int page_explain(void);
+/* Writes on standard output what --explain does, with --verbose if `receipts`. 0 on failure. */
+int page_explain(int receipts);
 
 /* The shader files of the open program, [{"name": ..., "text": ...}]. */
 const char *page_shaders(void);

@@ -45,13 +45,10 @@ const char *page_probe(int column, int row)
 const char *page_names(void)
 {
     FILE *file = page_text_begin();
-    if (!file)
-        return "";
-    const bool done =
-        captured && show_names(&probing.capture, &probing.driver, 1, file, &page.message) &&
-        fputc('\n', file) && show_names(&probing.capture, &probing.driver, 0, file, &page.message);
-    const char *text = page_text_end(file);
-    return done ? text : "";
+    for (int stage = 1; stage >= 0 && file && captured; stage--)
+        fputs(show_names(&probing.capture, &probing.driver, stage, file, &page.message) ? "\n" : "",
+              file);
+    return page_text_end(file);
 }
 
 const char *page_show(const char *what)

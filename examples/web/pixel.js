@@ -25,6 +25,8 @@ const Pixel = (() => {
                 return engine;
             drawn = "";
             const capture = () => engine.module.ccall("page_capture", "number", ["string", "number"], [device, task.seconds || 0]) === 1;
+            if (task.own && !engine.own)
+                engine.own = Object.entries(task.own).every(([name, text]) => engine.put(task.lines[0] + "/" + name, text));
             /* A lab is open before it has texts. */
             const begun = task.lab ? engine.run(task.lines) === 0 && engine.replace(task.texts) :
                 engine.replace(task.texts) && engine.run(task.lines) === 0;
@@ -48,8 +50,7 @@ const Pixel = (() => {
     }
 
     /* {text, picture} or {message}. */
-    async function ask(what, values, from = of) {
-        const task = from.task();
+    async function ask(what, values, task = of.task(), from = of) {
         const [used, source] = from.module?.() || [await (compiled ||= compileLighting(probe())), probe()];
         device ||= AS || Precision.device();
         const data = {id: ++count, compiled: used, task, device, what, values};
@@ -109,7 +110,7 @@ const Pixel = (() => {
         if (asked)
             return;
         asked = next;
-        const answer = await ask("probe", at, page);
+        const answer = await ask("probe", at, page.task(), page);
         if (asked === next)
             page.say(answer.text ? line(JSON.parse(answer.text)) : answer.message);
         const again = asked !== next;
@@ -314,5 +315,5 @@ const Pixel = (() => {
         }, STILL);
     }
 
-    return {begin, tell, explain, mark, renew, said: () => said};
+    return {ask, begin, tell, explain, mark, renew, said: () => said};
 })();

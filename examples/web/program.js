@@ -314,8 +314,9 @@ const Page = (() => {
         if (!part("assembled")?.open)
             return;
         const [vertex = "", fragment = ""] = page.engine.lighting;
-        part("assembled").querySelector("pre").textContent =
-            Assembled.read(/^#define VERTEX_LIGHTS/m.test(vertex) ? vertex : fragment);
+        const said = page.engine.explain(true), [text, receipt] = part("assembled").querySelectorAll("pre");
+        text.replaceChildren(...Assembled.show(Assembled.read(/^#define VERTEX_LIGHTS/m.test(vertex) ? vertex : fragment), said));
+        receipt.textContent = said;
     }
 
     function tellEffects() {

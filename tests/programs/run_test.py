@@ -109,7 +109,10 @@ class Names(Case):
         for arguments, code, said in (((), 2, "web: -o DIR names the folder for the pages, --pdf FILE the book's file"),
                                       (("-o",), 2, "-o: name a folder, as in -o pages"),
                                       (("--pdf",), 2, "--pdf: name a file, as in --pdf book.pdf"),
-                                      (("--size", "9x9"), 2, "web: --size: no such option; -o DIR names the folder, --pdf FILE the book's file"),
+                                      (("--size", "9x9"), 2, "web: --size: no such option; -o DIR names the folder, --lab LAB a lab of your own, "
+                                       "--pdf FILE the book's file"),
+                                      (("--lab", "x", "--pdf", "book.pdf"), 2, "web: --lab needs -o DIR, the folder for the pages"),
+                                      (("-o", "new", "--lab", "none"), 1, "web: --lab none: no such folder"),
                                       (("-o", self.folder), 1,
                                        f"web: {self.folder}: is there, and holds no such pages; name another folder")):
             before = sorted(os.listdir(self.folder))

@@ -26,11 +26,12 @@ SOLUTION = mistakes.read(5)
 
 
 def check(lab, texts):
-    """What `check` says of a submission."""
+    """What `check` says of a submission for a lab, by number or folder."""
+    of = ["--lab", lab] if isinstance(lab, str) else [mistakes.NAMES[lab]]
     with tempfile.TemporaryDirectory() as folder:
         for name, text in texts.items():
             pathlib.Path(folder, name).write_text(text)
-        done = subprocess.run([CHECK, mistakes.NAMES[lab], folder, "--seed", "1", "--json", "-"], stdout=subprocess.PIPE)
+        done = subprocess.run([CHECK, *of, folder, "--seed", "1", "--json", "-"], stdout=subprocess.PIPE)
     return json.loads(done.stdout)
 
 
@@ -223,7 +224,7 @@ class Accessible(OfLabs):
         self.page.run("localStorage.clear()")
 
     def test_programs(self):
-        for name in ("index", "LightedCube_ambient", "PointLightedSphere_perFragment", "Materials", "single/FourLights"):
+        for name in ("index", "precision", "LightedCube_ambient", "PointLightedSphere_perFragment", "Materials", "single/FourLights"):
             self.open(name)
             self.assert_accessible(name)
         self.page.click("#picture")
@@ -252,6 +253,8 @@ class Accessible(OfLabs):
         self.page.run(f"Lab.lab.editor.texts = () => new Map(Object.entries({json.dumps(texts)}))")
         self.page.run("Lab.check(1)")
         self.assertIn("not normalized", self.text("[aria-label=Mistakes]"))
+        self.page.run("Point.load().then(() => Lab.lab.point.show())")
+        self.page.wait("document.getElementById('pixel')?.dataset.milliseconds")
         self.nonsense()
         self.assert_accessible("a mistake and an error")
 
@@ -328,6 +331,68 @@ class Labs(OfLabs):
         self.assertIn("does not have length 1", self.page.run("document.querySelector('#result details').innerText"))
         self.assertGreater(self.page.run("document.getElementById('sheet').width"), 200)
         self.assertEqual(self.page.complaints(), [])
+
+    def test_where_a_mistake_shows_first(self):
+        """The value is wrong at that pixel, in that line; beside it is the right one, as the solution has it."""
+        self.open(mistakes.NAMES[6])
+        vertex, fragment = ("lab06.vert", "lab06.frag")
+        right = mistakes.read(6)
+        for old, new, name in (("reflect(-lightDirection", "reflect(lightDirection", "reflected"),
+                               ("normal = normalize(v_Normal)", "normal = v_Normal", "normal")):
+            texts = {vertex: right[vertex], fragment: right[fragment].replace(old, new)}
+            line = next(i for i, row in enumerate(texts[fragment].splitlines(), 1) if new in row)
+            self.page.run(f"Lab.lab.editor.texts = () => new Map({json.dumps(list(texts.items()))}); Lab.check(1)")
+            self.page.wait("!document.getElementById('check').disabled && !!document.querySelector('.first')")
+            self.assertRegex(self.text(".first"), rf"^Column \d+, row \d+: line {line}: {name} is [-0-9., ]+; in a right program it is [-0-9., ]+\.$")
+            captions = self.page.run("[...document.querySelectorAll('#result .pictures figcaption')].map(part => part.firstChild.data)")
+            self.assertEqual(captions, ["Yours", "Right"])
+            self.assertNotEqual(*self.page.run("[...document.querySelectorAll('#result .pictures canvas')].map(part => part.toDataURL())"))
+        self.page.run(f"Lab.lab.editor.texts = () => new Map({json.dumps(list(right.items()))}); Lab.check(1)")
+        self.page.wait("!document.getElementById('check').disabled && /right/.test(document.querySelector('#result p').className)")
+        self.assertFalse(self.page.run("!!document.querySelector('.first')"))
+        self.assertEqual(self.page.complaints(), [])
+
+    def test_own_labs(self):
+        """A folder becomes a page, whose verdicts, pictures and pixels are those of the folder natively."""
+        own = {name: pathlib.Path(SOURCE, "examples/labs/extra", name) for name in ("spot", "fog")}
+        changes = {"spot": (("normalize(v_Normal)", "v_Normal"), ("max(", "abs("), ("smoothstep(u_CosOuterCut, u_CosInnerCut", "smoothstep(u_CosInnerCut, u_CosOuterCut")),
+                   "fog": (("normalize(v_Normal)", "v_Normal"), ("exp(-", "exp("), ("u_FogColor,", "v_Color.rgb,"))}
+        with tempfile.TemporaryDirectory() as site:
+            run = [os.path.join(SOURCE, "examples/run"), "web", "-o", site]
+            environment = {**os.environ, "LIGHTING_BUILD": os.path.dirname(EXAMPLES)}
+            subprocess.run([*run, "--lab", own["spot"], f"--lab={own['fog']}"], check=True, stderr=subprocess.DEVNULL, env=environment)
+            for name, folder in own.items():
+                self.page.open(pathlib.Path(site, "single" if name == "fog" else "", name + ".html").as_uri())
+                self.assertEqual(self.page.run("Lab.lab.files.map(({name, text}) => [name, text])"),
+                                 [[name + end, (folder / (name + end)).read_text()] for end in (".vert", ".frag")])
+                self.assertEqual(self.page.run("document.getElementById('error').textContent"), "")
+                solution = {path.name: path.read_text() for path in (folder / "solution").iterdir()}
+                self.assertNotIn(solution[name + ".frag"][-80:].strip(), pathlib.Path(site, "own_" + name + ".js").read_text())
+                for old, new in ((" ", " "), *changes[name]):
+                    texts = {file: text.replace(old, new) for file, text in solution.items()}
+                    with self.subTest(name, old=old):
+                        self.page.run(f"Lab.lab.editor.texts = () => new Map({json.dumps(list(texts.items()))}); 0")
+                        verdict, native = self.page.run("Lab.check(1)"), check(str(folder), texts)
+                        self.assertEqual((said(verdict), scenes(verdict)), (said(native), scenes(native)))
+                # The solution is what is expected; a pixel of it has no error of the formula.
+                self.page.run(f"Lab.lab.texts = new Map({json.dumps(list(solution.items()))}); Lab.draw(true)")
+                self.page.wait("/ 0\\.\\d+ steps/.test(document.getElementById('compared').textContent)")
+                self.page.run("Point.load().then(() => Lab.lab.point.show())")
+                self.page.wait("document.getElementById('pixel')?.dataset.milliseconds")
+                self.assertLess(abs(self.page.run("Pixel.said().verdict?.formula || 0")), 0.51)  # the solution's picture has bytes
+                self.assertEqual(self.page.complaints(), [])
+            self.page.open(pathlib.Path(site, "labs.html").as_uri())
+            self.assertEqual(self.page.run("[...document.querySelectorAll('.cards a')].slice(-2).map(a => a.getAttribute('href'))"),
+                             ["spot.html", "fog.html"])
+            # What is no lab is refused, and the pages stay.
+            broken = pathlib.Path(site, "broken")
+            broken.mkdir()
+            (broken / "TASK.md").write_text("# Broken\n")
+            (broken / "lab.json").write_text("{\n")
+            done = subprocess.run([*run, "--lab", broken], capture_output=True, text=True, env=environment)
+            self.assertEqual(done.returncode, 1)
+            self.assertRegex(done.stderr.splitlines()[-1], r"^examples/run: web: --lab .*/broken: .*lab\.json:\d+: ")
+            self.assertTrue(pathlib.Path(site, "spot.html").exists())
 
     def test_a_dropped_file_leaves_the_page(self):
         self.put(SOLUTION)

@@ -401,6 +401,19 @@ class Working(Case):
                 self.page.wait("document.querySelector('#assembled pre').textContent")
                 text = self.page.run("document.querySelector('#assembled pre').textContent")
                 self.assertNotRegex(text, r"#\s*(if|el|endif|line)")
+                # The receipt is what the program prints, and each of its lines that is here has its effect. Maps have other texels here.
+                words = shlex.split(self.text("#command"))
+                done = subprocess.run([os.path.join(EXAMPLES, words[1]), *words[2:], "--explain", "--verbose"], check=True,
+                                      capture_output=True, text=True)
+                effects = re.compile(r"^# [^\n]*, view 0, object 0$.*?^$", re.MULTILINE | re.DOTALL)
+                receipt = self.page.run("document.querySelectorAll('#assembled pre')[1].textContent")
+                if link != "shadows=map":
+                    self.assertEqual(effects.search(receipt)[0], effects.search(done.stdout)[0])
+                marked = self.page.run("""[...document.querySelectorAll("#assembled [data-by]")].map(mark =>
+                    [mark.previousSibling.data.replace(/\\/\\/.*/, "").trim(), mark.dataset.by])""")
+                self.assertGreater(len(marked), 3)
+                for line, by in marked:
+                    self.assertIn("  " + line[:60], receipt, by)
                 self.assertIn("void main()", text)
                 stage = "vert" if "gl_Position" in text else "frag"
                 self.assertEqual(stage == "vert", "#define VERTEX_LIGHTS" in text)

@@ -426,7 +426,7 @@ bool lab_folder_open(LabFolder *folder, const char *path, Message *message)
 {
     enum { BYTES_MAX = 1 << 20 };
     char file[2 * PATH_MAX];
-    json_error_t error;
+    json_error_t error = {.line = 1};
     size_t size;
     Reading reading = {.folder = folder, .message = message};
     *folder = (LabFolder){.json = NULL};

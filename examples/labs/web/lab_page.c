@@ -6,6 +6,7 @@
 #include "labs/check/code.h"
 #include "labs/check/judge.h"
 #include "labs/program/lab_scene_open.h"
+#include "labs/submission/lab_json.h"
 #include "labs/submission/verdict_fields.h"
 #include "probe/probe.h"
 #include "probe/show.h"
@@ -34,6 +35,7 @@ static struct {
     Capture capture;
     GlslArithmetic driver;
     bool captured;
+    double seconds;
     LabScene lab_scene;
     Scene right_scene;
     Object right_objects[LAB_SCENE_MAX_OBJECTS];
@@ -65,45 +67,6 @@ static const char *text_end(FILE *file)
     return whole && page.text ? page.text : "";
 }
 
-static void put_files(JsonWriter *json, const Lab *lab)
-{
-    char folder[PATH_MAX], names[LAB_MAX_FILES][LAB_NAME_SIZE];
-    SubmissionFiles starter = {.count = 0};
-    if (!lab_folder(lab, folder, &page.message) ||
-        !submission_files_open(&starter, lab, folder, &page.message))
-        return;
-    for (int i = 0, count = lab_files(lab, names); i < count; i++) {
-        json_write_object(json, NULL);
-        json_write_text(json, "name", names[i]);
-        json_write_text(json, "text", submission_file(&starter, names[i]));
-        json_write_end(json);
-    }
-    submission_files_close(&starter);
-}
-
-const char *page_labs(void)
-{
-    JsonWriter json = {.file = text_begin()};
-    page.message = (Message){0};
-    if (!json.file)
-        return "";
-    json_write_list(&json, NULL);
-    for (int i = 0; i < LAB_COUNT; i++) {
-        const Lab *lab = &LABS[i];
-        json_write_object(&json, NULL);
-        json_write_text(&json, "name", lab->name);
-        json_write_text(&json, "summary", lab->summary);
-        json_write_text(&json, "code", lab->code ? lab->code : "");
-        json_write_flag(&json, "shaders", !lab->given);
-        json_write_list(&json, "files");
-        put_files(&json, lab);
-        json_write_end(&json);
-        json_write_end(&json);
-    }
-    json_write_end(&json);
-    return text_end(json.file);
-}
-
 const char *page_message(void)
 {
     return page.message.text;
@@ -112,12 +75,22 @@ const char *page_message(void)
 static bool write_file(const char *name, const char *text, size_t size)
 {
     char path[PATH_MAX];
-    mkdir(FOLDER, 0700);
-    snprintf(path, sizeof path, FOLDER "/%s", name);
+    snprintf(path, sizeof path, name[0] == '/' ? "%s" : FOLDER "/%s", name);
+    for (char *slash = strchr(path + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
+        *slash = '\0';
+        mkdir(path, 0700);
+        *slash = '/';
+    }
     FILE *file = fopen(path, "w");
     const bool written = file && fwrite(text, 1, size, file) == size;
     return ((!file || fclose(file) == 0) && written) ||
            message_set(&page.message, "%s: cannot be kept", name);
+}
+
+int page_own(const char *path, const char *text)
+{
+    page.message = (Message){0};
+    return write_file(path, text, strlen(text));
 }
 
 /* The starter's files in place of all. */
@@ -140,7 +113,7 @@ static bool restore(void)
 int page_open(const char *name)
 {
     page.message = (Message){0};
-    page.lab = lab_find(name, &page.message);
+    page.lab = lab_open(name, &page.message);
     return page.lab && restore() ? 0 : 2;
 }
 
@@ -241,6 +214,22 @@ int page_draw(double seconds)
     return done;
 }
 
+/* Of a lab that has solutions, what the first draws is right. */
+static bool take_solution(LabScene *lab_scene)
+{
+    LabSolutions solutions = {.painters = {{NULL}}};
+    lab_scene->width = lab_scene->height = SIZE;
+    const bool done =
+        !page.lab->solution_count ||
+        (lab_solutions_open(&solutions, page.lab, &page.message) &&
+         painter_draw(solutions.painters, lab_scene, &(SubmissionGeometry){.cull = false},
+                      &page.canvas, &page.right, &page.message));
+    lab_solutions_close(&solutions);
+    if (done && page.lab->solution_count)
+        compare_take(&page.exact, &page.right);
+    return done;
+}
+
 int page_expected(double seconds)
 {
     LabScene lab_scene;
@@ -261,7 +250,8 @@ int page_expected(double seconds)
     bool done = reference_open(&page.exact, &scene, &options, &page.message);
     if (done)
         lab_pictures_leave_out_edges(&page.exact);
-    done = done && reference_image(&page.exact, &page.right, &page.message) && show(&page.right);
+    done = done && reference_image(&page.exact, &page.right, &page.message) &&
+           take_solution(&lab_scene) && show(&page.right);
     lab_scene_close(&lab_scene);
     page.exact_lab = done ? page.lab : NULL;
     page.exact_seconds = seconds;
@@ -295,32 +285,28 @@ static void end_capture(void)
     page.captured = false;
 }
 
-static bool draw_captured(double seconds)
-{
-    Shader shader = {0};
-    if (!lab_scene_open_usual(&page.lab_scene, page.lab, seconds, &page.message))
-        return false;
-    capture_begin(&page.capture, &page.canvas);
-    const bool done = open_shader(&shader) && draw_scene(&page.lab_scene, &shader);
-    capture_end(&page.capture);
-    shader_close(&shader);
-    return done;
-}
-
 int page_capture(const char *device, double seconds)
 {
+    Shader shader = {0};
     /* Opens what drawing needs; and a picture that cannot be drawn says so before. */
     if (!page_draw(seconds))
         return 0;
     end_capture();
+    page.seconds = seconds;
     if (!glsl_arithmetic_read(device, &page.driver))
         return message_set(&page.message, "%s: no device's arithmetic", device);
-    page.captured = draw_captured(seconds);
+    if (!lab_scene_open_usual(&page.lab_scene, page.lab, seconds, &page.message))
+        return 0;
+    capture_begin(&page.capture, &page.canvas);
+    page.captured = open_shader(&shader) && draw_scene(&page.lab_scene, &shader);
+    capture_end(&page.capture);
+    shader_close(&shader);
     return page.captured;
 }
 
-/* Of what the lab's scene should be; false: not known. */
-static bool tell_exact(const int pixel[2], ExactPixel *exact)
+/* Of what the lab's scene should be; false: not known. The equation of a lab that has solutions is
+ * its own. */
+static bool tell_exact(int column, int row, ExactPixel *exact)
 {
     ReferenceOptions options = EXACT;
     options.meshes = !page.lab->budget;
@@ -328,26 +314,31 @@ static bool tell_exact(const int pixel[2], ExactPixel *exact)
     if (!page.trace && !trace_open(&page.trace, &page.right_scene, &options, NULL))
         return false;
     exact_light_tell(exact, page.trace, &page.right_scene, (int[]){0, 0, SIZE, SIZE},
-                     (double[]){pixel[0] + 0.5, pixel[1] + 0.5});
+                     (double[]){column + 0.5, row + 0.5});
+    if (!page.lab->solution_count)
+        return true;
+    if (exact->equation)
+        exact->equation[0] = '\0';
+    if (!page_expected(page.seconds))
+        return false;
+    memcpy(exact->color, page.exact.color + 3 * (row * SIZE + column), sizeof exact->color);
     return true;
 }
 
 const char *page_probe(int column, int row)
 {
-    page.message = (Message){0};
-    if (!page.captured || column < 0 || row < 0 || column >= SIZE || row >= SIZE) {
-        message_set(&page.message, "%d,%d: no pixel of a picture", column, row);
-        return "";
-    }
     ExactPixel exact = {.equation = NULL};
     ProbeQuestion question = {.capture = &page.capture,
                               .driver = &page.driver,
                               .column = column,
                               .row = row,
                               .height = SIZE};
-    memcpy(question.drawn, (unsigned char *)page.drawn.pixels + 4 * (row * SIZE + column), 4);
-    question.exact = tell_exact((int[]){column, row}, &exact) ? &exact : NULL;
     Probe probe;
+    page.message = (Message){0};
+    if (!page.captured || column < 0 || row < 0 || column >= SIZE || row >= SIZE)
+        return "";
+    memcpy(question.drawn, (unsigned char *)page.drawn.pixels + 4 * (row * SIZE + column), 4);
+    question.exact = tell_exact(column, row, &exact) ? &exact : NULL;
     free(page.text);
     page.text = probe_open(&probe, &question, &page.message) ? probe_json(&probe) : NULL;
     probe_close(&probe);
@@ -358,33 +349,26 @@ const char *page_probe(int column, int row)
 const char *page_names(void)
 {
     FILE *file = text_begin();
-    if (!file)
-        return "";
-    const bool done =
-        page.captured && show_names(&page.capture, &page.driver, 1, file, &page.message) &&
-        fputc('\n', file) && show_names(&page.capture, &page.driver, 0, file, &page.message);
-    const char *text = text_end(file);
-    return done ? text : "";
+    for (int stage = 1; stage >= 0 && file && page.captured; stage--)
+        fputs(show_names(&page.capture, &page.driver, stage, file, &page.message) ? "\n" : "",
+              file);
+    return text_end(file);
 }
 
 const char *page_show(const char *what)
 {
     Show show = {.pixels = NULL};
     page.message = (Message){0};
-    if (!page.captured) {
-        message_set(&page.message, "no picture is drawn");
-        return "";
-    }
     image_close(&page.shown);
     FILE *legend = text_begin();
-    const bool done = legend && image_open(&page.shown, SIZE, SIZE, IMAGE_BYTE, &page.message) &&
+    const bool done = legend && page.captured &&
+                      image_open(&page.shown, SIZE, SIZE, IMAGE_BYTE, &page.message) &&
                       show_open(&show, &page.capture, &page.driver, what[0] ? what : NULL,
                                 (int[]){SIZE, SIZE}, &page.message);
     if (done)
         show_paint(&show, &page.shown, legend);
     show_close(&show);
-    const char *text = text_end(legend);
-    return done ? text : "";
+    return text_end(legend);
 }
 
 const unsigned char *page_pixels(void)

@@ -7,12 +7,12 @@
 
 /* Texts that are returned are valid until the next call. */
 
-/* The labs as JSON: [{"name": ..., "summary": ..., "shaders": bool, "code": "budget.c" or "",
- * "files": [{"name": ..., "text": ...}]}], with the starters' texts. */
-const char *page_labs(void);
-
-/* Opens a lab by its name, with the starter's files. 0, or 2 and page_message. */
+/* Opens a lab by its name, or by the folder that page_own wrote, with the starter's files. 0, or 2
+ * and page_message. */
 int page_open(const char *name);
+
+/* Writes a file of a lab's folder, "/own/spot/lab.json". 0 on failure. */
+int page_own(const char *path, const char *text);
 
 /* Why the last call failed, or "". */
 const char *page_message(void);
