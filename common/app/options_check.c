@@ -159,6 +159,11 @@ bool options_check(Options *options, const Usage *usage, Message *message)
                            "file");
     if (options->format && strcmp(options->format, "json") == 0 && !options->probe.asked)
         return message_set(message, "--format json: is of --probe");
+    if (options->probe.asked &&
+        (options->probe.column >= options->width || options->probe.row >= options->height))
+        return message_set(message, "--probe %d,%d: the picture has %dx%d pixels, counted from 0,0",
+                           options->probe.column, options->probe.row, options->width,
+                           options->height);
     if (options->probe.asked)
         return !options->show || message_set(message, "--probe and --show: one of them");
     const char *one = options->show ? "show" : "arithmetic";

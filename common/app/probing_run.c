@@ -37,9 +37,6 @@ bool probing_tell(const Example *example, const Options *options, Message *messa
     Canvas canvas = {.backend = NULL};
     const int pixel[2] = {options->probe.column, options->probe.row};
     const bool json = options->format && strcmp(options->format, "json") == 0;
-    if (pixel[0] >= options->width || pixel[1] >= options->height)
-        return message_set(message, "--probe %d,%d: the picture has %dx%d pixels", pixel[0],
-                           pixel[1], options->width, options->height);
     const bool opened = open_both(&probing, &canvas, example, options, message);
     const ProbePlugin *plugin = opened ? probing_plugin(message) : NULL;
     char *text = plugin ? probing_pixel(&probing, plugin, pixel, json, message) : NULL;

@@ -437,6 +437,8 @@ TEST(pictures_go_to_one_animation_or_each_to_its_file)
     refuse("--format png", "--format png: applies to standard output, -o -");
     refuse("-o - --format gif", "--format gif: must be png, y4m, rgb or json");
     refuse("-o - --format json", "--format json: is of --probe");
+    refuse("--probe 400,1", "--probe 400,1: the picture has 400x400 pixels, counted from 0,0");
+    refuse("--probe 9,30 -s 40x30", "--probe 9,30: the picture has 40x30 pixels");
     refuse("-o - --format y4m --alpha", "y4m has no alpha channel");
     refuse_as(&GALLERY, "--format y4m", "--format: a gallery");
     takes("-o a.mp4 --print-shader --format y4m", NULL, false);
