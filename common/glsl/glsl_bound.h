@@ -32,11 +32,15 @@ typedef struct GlslErrors {
     double pow[GLSL_HIGHP + 1][16];
 } GlslErrors;
 
-/* An input: at s and t, each from -radius to radius, `middle` + s slope[0] + t slope[1] with slopes
- * in these ranges; the driver's is at most `error` from it. */
+/* The directions of a piece: s and t, and others in which what is seen of it changes. */
+enum { GLSL_WAYS = 5 };
+
+/* An input: where each direction w is from -radius[w] to radius[w], `middle` and for each the
+ * product with a slope in these ranges, up to `slack` more or less; the driver's is at most `error`
+ * from it. */
 typedef struct GlslInput {
-    double middle, error;
-    GlslRange slope[2];
+    double middle, error, slack;
+    GlslRange slope[GLSL_WAYS];
 } GlslInput;
 
 /* What a texture's functions may give at coordinates in these ranges. */
@@ -48,7 +52,7 @@ typedef struct GlslBoundRun {
     const GlslErrors *errors;
     /* Of each register, read where it is one of an input: set before a run. */
     GlslInput *inputs;
-    double radius;
+    double radius[GLSL_WAYS];
     /* How s and t change from a pixel to the one beside it, and above it; zeroed: unknown. Where a
      * condition changes in a pixel, an edge runs through it, which is not bounded. */
     double pixel[2][2];
@@ -72,6 +76,8 @@ bool glsl_bound_run(GlslBoundRun *run);
 /* Of a register after a run. */
 typedef struct GlslBound {
     GlslRange exact, driver;
+    double middle, slack; /* as in GlslInput; the middle of `exact` where slopes are not known */
+    GlslRange slope[GLSL_WAYS];
     double error; /* the largest difference; INFINITY: no bound exists */
     int node;     /* of the operations whose errors make most of it; 0: the inputs' do */
     double share; /* what they make */

@@ -48,7 +48,7 @@ static void replace(GlslBoundRun *run, int old, GlslRange exact, GlslRange drive
     entry.narrowed = true;
     if (!(entry.middle >= entry.exact.low && entry.middle <= entry.exact.high)) {
         entry.middle = (double)NAN; /* what slopes are from is not here */
-        entry.slope[0] = entry.slope[1] = ANY;
+        tape_slope(&entry, ANY);
     }
     const int made = tape_add(run, &entry);
     for (int i = 0; i < run->code->register_count; i++)
@@ -231,7 +231,7 @@ static void run_index(GlslBoundRun *run, const GlslInstruction *at)
     made.middle = is_point(made.exact) ? made.exact.low : (double)NAN;
     made.born = made.error =
         base->error + index->error > 0 ? range_difference(made.exact, made.driver) : 0;
-    made.slope[0] = made.slope[1] = is_point(made.exact) ? NONE : ANY;
+    tape_slope(&made, is_point(made.exact) ? NONE : ANY);
     const int entry = tape_add(run, &made);
     state->map[at->d] = entry;
 }
@@ -250,15 +250,14 @@ static void run_texture(GlslBoundRun *run, const GlslInstruction *at)
         run->texture(run->context, (int)state->entries[unit].exact.low, at->c, places, count,
                      color);
     for (int i = 0; i < 4; i++) {
-        const GlslRange slope = is_point(color[i]) ? NONE : ANY;
-        const int made =
-            tape_add(run, &(Entry){.exact = color[i],
-                                   .driver = color[i],
-                                   .middle = is_point(color[i]) ? color[i].low : (double)NAN,
-                                   .slope = {slope, slope},
-                                   .precision = GLSL_HIGHP,
-                                   .from = {-1, -1}});
-        state->map[at->d + i] = made;
+        Entry made = {.exact = color[i],
+                      .driver = color[i],
+                      .middle = is_point(color[i]) ? color[i].low : (double)NAN,
+                      .precision = GLSL_HIGHP,
+                      .from = {-1, -1}};
+        tape_slope(&made, is_point(color[i]) ? NONE : ANY);
+        const int added = tape_add(run, &made);
+        state->map[at->d + i] = added;
     }
 }
 
@@ -340,6 +339,13 @@ bool glsl_bound_run(GlslBoundRun *run)
     memset(state->leaves, -1, registers * sizeof(int));
     state->count = state->apart = state->depth = state->operations = 0;
     run->stopped = run->edges = false;
+    state->ways = 2;
+    state->wide = false;
+    for (int k = 0; k < GLSL_WAYS; k++)
+        if (run->radius[k] > 0) {
+            state->wide = true;
+            state->ways = k < 2 ? 2 : k + 1;
+        }
     run->node = 0;
     tape_add_constant(run, 0);
     run->discarded = run_from(run, 0, run->code->instruction_count) == DEAD && !run->stopped;

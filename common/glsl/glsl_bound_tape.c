@@ -8,6 +8,12 @@
 
 #include <string.h>
 
+void tape_slope(Entry *entry, GlslRange slope)
+{
+    for (int k = 0; k < GLSL_WAYS; k++)
+        entry->slope[k] = slope;
+}
+
 int tape_add(GlslBoundRun *run, const Entry *entry)
 {
     State *state = run->state;
@@ -22,6 +28,15 @@ int tape_add_constant(GlslBoundRun *run, double value)
                     &(Entry){.exact = range, .driver = range, .middle = value, .from = {-1, -1}});
 }
 
+/* By how much a number with these slopes is from its middle. */
+static double reach_of(const GlslBoundRun *run, const GlslRange *slope)
+{
+    double reach = 0;
+    for (int k = 0; k < run->state->ways; k++)
+        reach += run->radius[k] > 0 ? run->radius[k] * magnitude(slope[k]) : 0;
+    return reach;
+}
+
 /* The entry of a register. */
 int tape_read(GlslBoundRun *run, int at)
 {
@@ -31,20 +46,18 @@ int tape_read(GlslBoundRun *run, int at)
     if (run->state->leaves[at] >= 0)
         return map[at] = run->state->leaves[at];
     const GlslInput *input = &run->inputs[at];
-    double reach = 0;
-    for (int i = 0; i < 2; i++)
-        reach += run->radius > 0 ? run->radius * magnitude(input->slope[i]) : 0;
+    double reach = reach_of(run, input->slope) + input->slack;
     reach += reach > 0 ? (fabs(input->middle) + reach) * 0x1p-51 : 0;
     const GlslRange exact = {input->middle - reach, input->middle + reach};
-    const Entry leaf = {.exact = exact,
-                        .driver = {exact.low - input->error, exact.high + input->error},
-                        .middle = input->middle,
-                        .slack = reach > 0 ? magnitude(exact) * 0x1p-50 : 0,
-                        .error = input->error,
-                        .born = input->error,
-                        .slope = {input->slope[0], input->slope[1]},
-                        .precision = GLSL_HIGHP,
-                        .from = {-1, -1}};
+    Entry leaf = {.exact = exact,
+                  .driver = {exact.low - input->error, exact.high + input->error},
+                  .middle = input->middle,
+                  .slack = input->slack + (reach > 0 ? magnitude(exact) * 0x1p-50 : 0),
+                  .error = input->error,
+                  .born = input->error,
+                  .precision = GLSL_HIGHP,
+                  .from = {-1, -1}};
+    memcpy(leaf.slope, input->slope, sizeof leaf.slope);
     return map[at] = run->state->leaves[at] = tape_add(run, &leaf);
 }
 
@@ -66,9 +79,10 @@ static GlslRange widened(GlslRange a)
 static void complete(const GlslBoundRun *run, Entry *entry)
 {
     const Entry *entries = run->state->entries;
-    double error = entry->born, reach = 0;
+    double error = entry->born;
     entry->slack = magnitude(entry->exact) * 0x1p-51;
-    for (int k = 0; k < 2; k++)
+    const int ways = run->state->ways;
+    for (int k = 0; k < ways; k++)
         entry->slope[k] = NONE;
     for (int i = 0; i < 2; i++) {
         if (entry->from[i] < 0 || (entry->by[i].low == 0 && entry->by[i].high == 0))
@@ -76,14 +90,12 @@ static void complete(const GlslBoundRun *run, Entry *entry)
         const Entry *from = &entries[entry->from[i]];
         error += from->error > 0 ? magnitude(entry->by[i]) * from->error : 0;
         entry->slack += from->slack > 0 ? magnitude(entry->by[i]) * from->slack : 0;
-        for (int k = 0; k < 2; k++)
+        for (int k = 0; k < ways; k++)
             entry->slope[k] =
                 range_sum(entry->slope[k], range_product(entry->by[i], from->slope[k]));
     }
-    if (run->radius > 0) {
-        reach = entry->slack;
-        for (int k = 0; k < 2; k++)
-            reach += run->radius * magnitude(entry->slope[k]);
+    if (run->state->wide) {
+        const double reach = entry->slack + reach_of(run, entry->slope);
         if (entry->middle - reach > entry->exact.low)
             entry->exact.low = entry->middle - reach;
         if (entry->middle + reach < entry->exact.high)
@@ -224,8 +236,7 @@ static void compare(GlslBoundRun *run, Entry *entry)
     const bool whole = entry->op == OP_EQUAL || entry->op == OP_NOT_EQUAL;
     entry->by[0] = entry->by[1] = NONE;
     entry->born = 0;
-    for (int k = 0; k < 2; k++)
-        entry->slope[k] = is_point(entry->exact) ? NONE : ANY;
+    tape_slope(entry, is_point(entry->exact) ? NONE : ANY);
     if (error == 0 || (!whole && (apart.low > error || apart.high < -error))) {
         entry->driver = entry->exact;
     } else if (is_point(entry->exact) && is_point(entry->driver) &&
@@ -296,8 +307,7 @@ int tape_compute(GlslBoundRun *run, const GlslInstruction *at, int a, int b)
             entry.driver = known ? entry.exact : entry.driver;
             entry.edge = (x->error == 0 || x->edge) && (y->error == 0 || y->edge) && !known;
             entry.born = entry.error = known ? 0 : range_difference(entry.exact, entry.driver);
-            for (int k = 0; k < 2; k++)
-                entry.slope[k] = is_point(entry.exact) ? NONE : ANY;
+            tape_slope(&entry, is_point(entry.exact) ? NONE : ANY);
         }
     } else {
         const GlslRange p = hull(x->exact, x->driver), q = hull(y->exact, y->driver);
@@ -350,7 +360,7 @@ int tape_join(GlslBoundRun *run, const int of[2], const int near[2], int ways, i
     const bool alone = !(exact_a && exact_b);
     made.middle = alone ? (exact_a ? a.middle : b.middle) : (double)NAN;
     made.slack = alone ? (exact_a ? a.slack : b.slack) : 0;
-    for (int k = 0; k < 2; k++)
+    for (int k = 0; k < GLSL_WAYS; k++)
         made.slope[k] = alone ? (exact_a ? a.slope[k] : b.slope[k]) : ANY;
     return tape_add(run, &made);
 }
@@ -367,5 +377,16 @@ int ways_of(const Entry *condition)
 
 GlslBound glsl_bound(GlslBoundRun *run, int at)
 {
-    return bound_of(run, tape_read(run, at));
+    const int read = tape_read(run, at);
+    const Entry *entry = &run->state->entries[read];
+    GlslBound bound = bound_of(run, read);
+    const double half = (entry->exact.high - entry->exact.low) / 2;
+    bound.middle = (entry->exact.low + entry->exact.high) / 2;
+    bound.slack = half;
+    if (isfinite(entry->middle + reach_of(run, entry->slope))) {
+        bound.middle = entry->middle;
+        bound.slack = entry->slack;
+        memcpy(bound.slope, entry->slope, sizeof bound.slope);
+    }
+    return bound;
 }

@@ -55,10 +55,10 @@ static inline GlslRange range_product(GlslRange a, GlslRange b)
     return product;
 }
 
-/* A number on the tape. `slope`: by s and t; `by`: of the result by the operands `from`. */
+/* A number on the tape. `slope`: by the directions; `by`: of the result by the operands `from`. */
 typedef struct Entry {
-    GlslRange exact, driver, slope[2], by[2];
-    double middle, slack; /* exactly, where s and t are 0, and how exact a double is */
+    GlslRange exact, driver, slope[GLSL_WAYS], by[2];
+    double middle, slack; /* exactly, where these are 0, and how exact that is */
     double error, born;
     int from[2], node; /* -1: none */
     int converted;     /* to another precision, 0: not yet */
@@ -76,9 +76,14 @@ typedef struct GlslBoundState {
     int count, room, weight_room;
     int apart; /* how many branches are open in which the driver may go another way */
     int depth, operations;
+    int ways;      /* directions with a radius, at least s and t */
+    bool wide;     /* one has */
     double *lines; /* errors by line; 0: of the inputs */
     int *line_of;  /* each node's, counted from 0 */
 } State;
+
+/* One range in each direction. */
+void tape_slope(Entry *entry, GlslRange slope);
 
 /* Adds a number; its index. */
 int tape_add(GlslBoundRun *run, const Entry *entry);

@@ -60,9 +60,9 @@ typedef struct Sides {
 static void open_sides(const Judge *judge, const ProofTriangle *triangle, Sides *sides)
 {
     const Proof *proof = judge->question->proof;
-    const double *p[3];
+    double p[3][4];
     for (int i = 0; i < 3; i++) {
-        p[i] = proof_vertex(proof, triangle->draw, triangle->corners[i]);
+        proof_vertex(proof, triangle->draw, triangle->corners[i], p[i]);
         sides->z[i] = p[i][2];
         sides->w[i] = p[i][3];
     }
@@ -109,7 +109,8 @@ static void find_box(const Judge *judge, const ProofTriangle *triangle, const Si
     const int *v = sides->viewport, scale = question->scale, height = question->now->height;
     double low[2] = {INFINITY, INFINITY}, high[2] = {-(double)INFINITY, -(double)INFINITY};
     for (int i = 0; i < 3; i++) {
-        const double *p = proof_vertex(question->proof, triangle->draw, triangle->corners[i]);
+        double p[4];
+        proof_vertex(question->proof, triangle->draw, triangle->corners[i], p);
         for (int k = 0; k < 2; k++) {
             const bool behind = !(p[3] > 1e-6);
             const double at = behind ? 0 : fmin(fmax(p[k] / p[3], -1), 1);
@@ -213,7 +214,8 @@ static void find_lines(const Judge *judge, int number)
         double ends[2][2];
         for (int k = 0; k < 2; k++) {
             const int next = draw->mode == GL_POINTS ? i : (i + k) % draw->vertex_count;
-            const double *p = proof_vertex(judge->question->proof, number, draw->vertices[next]);
+            double p[4];
+            proof_vertex(judge->question->proof, number, draw->vertices[next], p);
             for (int j = 0; j < 2; j++)
                 ends[k][j] = v[j] + (p[j] / fmax(p[3], 1e-6) + 1) / 2 * v[2 + j];
         }
@@ -281,7 +283,8 @@ static MovedKind kind_of(const Judge *judge, const Place *place)
         double least[3], most[3];
         if (nearest && at->depth - at->change > nearest->depth + nearest->change)
             continue;
-        if (!proof_color(judge->question->proof, &at->triangle, at->center, at->half, range)) {
+        const ProofBox box = {{at->center[0], at->center[1]}, {at->half, at->half}};
+        if (!proof_color(judge->question->proof, &at->triangle, &box, range)) {
             any = true;
             continue;
         }

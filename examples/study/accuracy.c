@@ -29,6 +29,8 @@ static int seed = 1;
 
 static int proved = STUDY_SCENE_COUNT; /* none */
 
+static ProofCameras cameras; /* zeroed: those of the scenes */
+
 /* The names of the study's scenes, and the last: all of them, or none. */
 static const char *SCENES[STUDY_SCENE_COUNT + 2], *PROVED[STUDY_SCENE_COUNT + 2];
 
@@ -69,6 +71,10 @@ static const Parameter parameters[] = {
      "bound the error of all points of each object of a scene, from what is measured of the "
      "driver's arithmetic, instead of drawing settings",
      PARAMETER_CHOICE, .value = &proved, .choices = PROVED},
+    {"cameras",
+     "with --prove, from all cameras of these ranges: azimuth and elevation in degrees and factors "
+     "of the distance, as --orbit moves the scene's",
+     PARAMETER_TEXT, .value = &cameras, .standard = "", .codec = &PROOF_CAMERAS},
     {"seed", "of the order in which settings are measured", PARAMETER_WHOLE, .value = &seed,
      .min = 0, .max = 1e9},
     {.name = NULL},
@@ -456,6 +462,8 @@ static bool check(const Options *options, Message *message)
         return message_set(message, "--fresh: --setting keeps no rows, so there are none to drop");
     if (proved < STUDY_SCENE_COUNT && (one || quality_asked || part.count || merge || fresh))
         return message_set(message, "--prove: names its scene, and measures no settings");
+    if (cameras.high[2] > 0 && proved == STUDY_SCENE_COUNT)
+        return message_set(message, "--cameras: goes with --prove, as in --prove shiny32");
     if (by_rms && budget < 0 && time_budget < 0)
         return message_set(message, "--rms: goes with --budget or --time-budget");
     return true;
@@ -493,7 +501,8 @@ int main(int argc, char *argv[])
     const char *const folders[2] = {compared, options.names[0]};
     if (compared ? !compare_folders(folders, options.output, stdout, &message)
         : proved < STUDY_SCENE_COUNT
-            ? !prove_study(proved, options.canvas.backend, options.height, stdout, &message)
+            ? !prove_study(proved, cameras.high[2] > 0 ? &cameras : NULL, options.canvas.backend,
+                           options.height, stdout, &message)
             : !measure(&options, quality_asked ? &quality : NULL, &message))
         return options_fail(usage.name, &message, EXIT_FAILED);
     return options_finish(usage.name, 0);

@@ -178,12 +178,14 @@ static void shader_close(Shader *shader)
 
 static void choose_inputs(Shader *shader, Random *random)
 {
-    shader->bounds->radius = random_below(random, 3) ? 0 : random_between(random, 0, .2);
+    const double radius = random_below(random, 3) ? 0 : random_between(random, 0, .2);
+    for (int k = 0; k < GLSL_WAYS; k++)
+        shader->bounds->radius[k] = k < 2 || random_below(random, 2) ? radius : 0;
     for (int i = 0; i < 6; i++) {
         GlslInput *input = &shader->bounds->inputs[shader->inputs[i / 3].first + i % 3];
         *input = (GlslInput){.middle = random_between(random, -1.5, 1.5),
                              .error = ldexp(1, -random_below(random, 18) - 5)};
-        for (int k = 0; k < 2; k++) {
+        for (int k = 0; k < GLSL_WAYS; k++) {
             const double slope = random_between(random, -1, 1);
             input->slope[k] = (GlslRange){slope, slope};
         }
@@ -193,7 +195,7 @@ static void choose_inputs(Shader *shader, Random *random)
 }
 
 /* gl_FragColor at a place of the piece: exactly, and the driver's. */
-static double run_at(Shader *shader, Random *random, const double place[2],
+static double run_at(Shader *shader, Random *random, const double place[GLSL_WAYS],
                      const GlslErrors *errors, double *driver)
 {
     double results[2], exact[6];
@@ -201,8 +203,9 @@ static double run_at(Shader *shader, Random *random, const double place[2],
         for (int i = 0; i < 6; i++) {
             const int at = shader->inputs[i / 3].first + i % 3;
             const GlslInput *input = &shader->bounds->inputs[at];
-            exact[i] =
-                input->middle + place[0] * input->slope[0].low + place[1] * input->slope[1].low;
+            exact[i] = input->middle;
+            for (int k = 0; k < GLSL_WAYS; k++)
+                exact[i] += place[k] * input->slope[k].low;
             const double off = input->error - fabs(exact[i]) * 0x1p-23;
             shader->run->registers[at] =
                 way == 0 ? exact[i] : (double)(float)(exact[i] + random_between(random, -off, off));
@@ -231,10 +234,9 @@ static double check_shader(Random *random, bool narrow, const GlslErrors *errors
     const bool ran = glsl_bound_run(shader.bounds);
     const GlslBound bound = glsl_bound(shader.bounds, shader.color.first);
     for (int i = 0; i < 40 && ran && isfinite(bound.error); i++) {
-        const double radius = shader.bounds->radius;
-        const double place[2] = {random_between(random, -radius, radius),
-                                 random_between(random, -radius, radius)};
-        double driver;
+        double place[GLSL_WAYS], driver;
+        for (int k = 0; k < GLSL_WAYS; k++)
+            place[k] = shader.bounds->radius[k] * random_between(random, -1, 1);
         const double exact = run_at(&shader, random, place, errors, &driver);
         if (isnan(exact) || isnan(driver))
             fail_msg("not a number, in\n%s", text);

@@ -13,8 +13,8 @@ static double predict_triangle(const Proof *proof, const ProofTriangle *triangle
     double steps = 0;
     for (int i = 0; i <= parts; i++)
         for (int k = 0; k <= parts - i; k++) {
-            const double at[2] = {(double)i / parts, (double)k / parts};
-            steps = fmax(steps, proof_piece(proof, triangle, at, 0).steps);
+            const ProofBox at = {{(double)i / parts, (double)k / parts}, {0}};
+            steps = fmax(steps, proof_piece(proof, triangle, &at).steps);
         }
     return steps;
 }
@@ -27,7 +27,7 @@ double predict_scene(const Scene *scene, int height, const Arithmetic *vertex,
     Message message = {0};
     Proof proof;
     double steps = 0;
-    if (!proof_open(&proof, scene, &driver, false, &message))
+    if (!proof_open(&proof, scene, &driver, false, NULL, &message))
         return 255;
     for (ProofTriangle triangle = {.number = -1}; proof_next(&proof, &triangle);) {
         const double triangles = proof.capture.draws[triangle.draw].vertex_count / 3.0;
