@@ -322,16 +322,24 @@ static void prepare(GlslRun *run, const GlslArithmetic *arithmetic)
     run->prepared = arithmetic;
 }
 
-bool glsl_run(GlslRun *run)
+/* Where a run is. */
+typedef struct Spot {
+    int next, loops, events; /* the instruction, -1: the end; how many were executed */
+} Spot;
+
+static Spot start(GlslRun *run, const GlslArithmetic *arithmetic)
 {
-    const GlslCode *code = run->code;
-    const GlslArithmetic *arithmetic = run->exact_from < 0 ? &GLSL_EXACT : run->arithmetic;
     prepare(run, arithmetic);
-    int loops = 0, events = 0, next = code->message.text[0] ? -1 : 0;
     run->discarded = run->stopped = false;
     run->event_count = run->value_count = run->note_count = 0;
-    while (next >= 0) {
-        const GlslInstruction *at = &code->instructions[next++];
+    return (Spot){.next = run->code->message.text[0] ? -1 : 0};
+}
+
+/* Up to an event, or the end; true: the event. */
+static bool go_on(GlslRun *run, Spot *spot, const GlslArithmetic *arithmetic, int event)
+{
+    while (spot->next >= 0) {
+        const GlslInstruction *at = &run->code->instructions[spot->next++];
         run->operations++;
         if (at->op < OP_NUMBERS) {
             run->registers[at->d] = operate(run, at, arithmetic);
@@ -340,13 +348,45 @@ bool glsl_run(GlslRun *run)
                 add_event(run, at);
             if (run->assigned)
                 run->assigned(run, &(GlslEvent){at->node, at->c, at->a, at->n, -1}, run->observer);
-            if (events++ == run->exact_from)
-                arithmetic = &GLSL_EXACT;
+            if (spot->events++ == event)
+                return true;
         } else {
-            next = control(run, at, next, &loops);
+            spot->next = control(run, at, spot->next, &spot->loops);
         }
     }
+    return false;
+}
+
+bool glsl_run(GlslRun *run)
+{
+    const GlslArithmetic *arithmetic = run->exact_from < 0 ? &GLSL_EXACT : run->arithmetic;
+    Spot spot = start(run, arithmetic);
+    if (go_on(run, &spot, arithmetic, run->exact_from))
+        go_on(run, &spot, &GLSL_EXACT, INT_MAX);
     return !run->stopped;
+}
+
+void glsl_run_each(GlslRun *run, int first, int last, int step, GlslEach *each, void *context)
+{
+    const size_t size = (size_t)run->code->register_count * sizeof *run->registers;
+    double *saved = memory_new(2 * size + 1, 1), *expected = saved + run->code->register_count;
+    Spot spot = start(run, run->arithmetic);
+    bool expects = false;
+    for (int i = first; go_on(run, &spot, run->arithmetic, i);
+         i = i + step < last ? i + step : last) {
+        const bool same = expects && memcmp(expected, run->registers, size) == 0;
+        Spot exact = spot;
+        memcpy(saved, run->registers, size);
+        expects = go_on(run, &exact, &GLSL_EXACT, i + 1) && step == 1;
+        memcpy(expected, run->registers, size);
+        if (!same)
+            go_on(run, &exact, &GLSL_EXACT, INT_MAX);
+        each(run, i, same, context);
+        memcpy(run->registers, saved, size);
+        if (i >= last)
+            break;
+    }
+    free(saved);
 }
 
 GlslRun *glsl_run_open(const GlslCode *code)

@@ -134,6 +134,12 @@ void glsl_run_close(GlslRun *run);
 /* False if it stopped. */
 bool glsl_run(GlslRun *run);
 
+/* As glsl_run with exact_from the event `first`, every `step`-th after it and `last`, but what runs
+ * before an event runs once. Calls `each` after each; `same`: its results are those of the call
+ * before, and not in the registers. */
+typedef void GlslEach(GlslRun *run, int event, bool same, void *context);
+void glsl_run_each(GlslRun *run, int first, int last, int step, GlslEach *each, void *context);
+
 /* The last of the events of a variable so named, NULL: it has none. */
 const GlslEvent *glsl_last(const GlslRun *run, const char *name);
 

@@ -20,33 +20,54 @@ double origin_apart(const double a[4], const double b[4])
     return most;
 }
 
+/* The largest jump so far: at an event, after which error; the part it ends. */
+typedef struct Search {
+    const double *exact;
+    double before, largest, base;
+    int birth, begin, after;
+} Search;
+
+static void judge(Search *search, int event, double error)
+{
+    const double jump = fabs(error - search->before);
+    if (jump > search->largest) {
+        search->largest = jump;
+        search->birth = event;
+        search->base = search->before;
+        search->begin = search->after;
+    }
+    search->before = error;
+    search->after = event + 1;
+}
+
+static void judge_run(GlslRun *run, int event, bool same, void *context)
+{
+    Search *search = context;
+    double color[4];
+    if (!same)
+        raster_color(run, color);
+    judge(search, event, same ? search->before : origin_apart(color, search->exact));
+}
+
 int origin_find(Raster *raster, const RasterPixel *pixel, int events, const double exact[4])
 {
     enum { PARTS = 500 };
     double start = 0, color[4];
-    int birth = -1, first = -1, last = events - 1;
-    for (int step = 1 + (last - first) / PARTS;; step = 1 + (last - first) / PARTS) {
-        double before = start, largest = -1, base = start;
-        int begin = first, after = first; /* of the part with the largest jump; of the next */
-        for (int i = first;; i = i + step < last ? i + step : last) {
-            raster_run(raster, pixel, raster_driver(raster), i, color);
-            const double error = origin_apart(color, exact), jump = fabs(error - before);
-            if (jump > largest) {
-                largest = jump;
-                birth = i;
-                base = before;
-                begin = after;
-            }
-            before = error;
-            after = i + 1;
-            if (i >= last)
-                break;
+    for (int first = -1, last = events - 1;;) {
+        const int step = 1 + (last - first) / PARTS;
+        Search search = {exact, start, -1, start, -1, first, first};
+        int next = first;
+        if (first < 0) {
+            raster_run(raster, pixel, raster_driver(raster), -1, color);
+            judge(&search, -1, origin_apart(color, exact));
+            next = step - 1 < last ? step - 1 : last;
         }
+        if (last >= 0)
+            raster_run_each(raster, pixel, (int[]){next, last, step}, judge_run, &search);
         if (step == 1)
-            break;
-        first = begin;
-        last = birth;
-        start = base;
+            return search.birth;
+        first = search.begin;
+        last = search.birth;
+        start = search.base;
     }
-    return birth;
 }

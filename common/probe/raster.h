@@ -42,6 +42,12 @@ void raster_scan(const Raster *raster, const int window[4], RasterPixel *pixels)
 const GlslRun *raster_run(Raster *raster, const RasterPixel *pixel,
                           const GlslArithmetic *arithmetic, int exact_from, double color[4]);
 
+/* The same with the driver's arithmetic for the events[0], events[1] and events[2] of
+ * glsl_run_each; then raster_color is the fragment's colour. */
+void raster_run_each(Raster *raster, const RasterPixel *pixel, const int events[3], GlslEach *each,
+                     void *context);
+void raster_color(GlslRun *run, double color[4]);
+
 /* Whatever the arithmetic, this varying is what the driver computes; NULL: none. */
 void raster_keep(Raster *raster, const char *varying);
 

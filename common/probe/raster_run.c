@@ -332,24 +332,44 @@ void raster_log(Raster *raster, bool always)
     raster->logs = always;
 }
 
-const GlslRun *raster_run(Raster *raster, const RasterPixel *pixel,
-                          const GlslArithmetic *arithmetic, int exact_from, double color[4])
+static GlslRun *begin_pixel(Raster *raster, const RasterPixel *pixel,
+                            const GlslArithmetic *arithmetic)
 {
     GlslRun *run = begin(raster, pixel->draw, 1, arithmetic);
     const double front = pixel->front;
-    GlslVariable found;
     (raster->at_pixel ? compute : interpolate)(raster, pixel, run, arithmetic);
     set(run, "gl_FragCoord", pixel->coord, 4);
     set(run, "gl_FrontFacing", &front, 1);
-    run->exact_from = exact_from;
-    run->trace = raster->logs || exact_from == INT_MAX;
-    glsl_run(run);
+    return run;
+}
+
+void raster_color(GlslRun *run, double color[4])
+{
+    GlslVariable found;
     const double *written = numbers(run, "gl_FragColor", &found);
     if (!written || !run->code->tree->symbols[found.symbol].written)
         written = numbers(run, "gl_FragData[0]", &found);
     for (int i = 0; i < 4; i++)
         color[i] = written ? written[i] : 0;
+}
+
+const GlslRun *raster_run(Raster *raster, const RasterPixel *pixel,
+                          const GlslArithmetic *arithmetic, int exact_from, double color[4])
+{
+    GlslRun *run = begin_pixel(raster, pixel, arithmetic);
+    run->exact_from = exact_from;
+    run->trace = raster->logs || exact_from == INT_MAX;
+    glsl_run(run);
+    raster_color(run, color);
     return run;
+}
+
+void raster_run_each(Raster *raster, const RasterPixel *pixel, const int events[3], GlslEach *each,
+                     void *context)
+{
+    GlslRun *run = begin_pixel(raster, pixel, raster_driver(raster));
+    run->trace = false;
+    glsl_run_each(run, events[0], events[1], events[2], each, context);
 }
 
 const GlslCode *raster_code(const Raster *raster, int draw, int stage)

@@ -5,6 +5,7 @@
 #include "glsl/glsl_run.h"
 #include "support/testing.h"
 
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -201,6 +202,46 @@ TEST(events_say_where_digits_are_lost)
         errors[from] = *registers(&shader, "gl_FragColor");
     }
     assert_true(fabs(errors[1]) < 1e-15 && fabs(errors[2]) > 1e-9);
+    shader_close(&shader);
+}
+
+typedef struct Each {
+    Shader *shader;
+    double results[64];
+    int count, same;
+} Each;
+
+static void note_each(GlslRun *run, int event, bool same, void *context)
+{
+    Each *each = context;
+    (void)run;
+    each->results[event] =
+        same ? each->results[event - 1] : *registers(each->shader, "gl_FragColor");
+    each->count++;
+    each->same += same;
+}
+
+TEST(what_runs_before_each_event_runs_once)
+{
+    Shader shader = ran("mediump float a = x;\nfor (int k = 0; k < 5; k++) {\na = a * y + z;\n"
+                        "if (a > 1.5) a -= 1.0;\nfloat c = 2.0;\nr += a * c / 3.0;\n}");
+    GlslRun *run = shader.run;
+    run->arithmetic = &GLSL_LLVMPIPE;
+    run->trace = true;
+    glsl_run(run);
+    const int last = run->event_count - 1;
+    for (int step = 1; step < 4; step++) {
+        Each each = {.shader = &shader};
+        glsl_run_each(run, 0, last, step, note_each, &each);
+        assert_int_equal(each.count, 1 + (last + step - 1) / step);
+        assert_true(step == 1 ? each.same > 5 : each.same == 0);
+        for (int i = 0; i <= last; i = i < last && i + step > last ? last : i + step) {
+            run->exact_from = i;
+            glsl_run(run);
+            assert_true(*registers(&shader, "gl_FragColor") == each.results[i]);
+        }
+        run->exact_from = INT_MAX;
+    }
     shader_close(&shader);
 }
 
