@@ -48,7 +48,7 @@ static void find_magnifier(Probe *probe)
 static void judge(Probe *probe)
 {
     const ExactPixel *exact = probe->question.exact;
-    double picture[4] = {0, 0, 0, 1};
+    double *picture = probe->picture;
     probe->judged = true;
     for (int i = 0; i < 3 && exact; i++)
         picture[i] = (double)exact->color[i];

@@ -37,6 +37,7 @@ typedef struct Probe {
      * is the formula's, and what is rounding. Without an exact picture, against what the program's
      * own equation gives at the pixel: the formula's is then what interpolating changes. */
     bool judged;
+    double picture[4];
     double whole, formula, rounding;
     int birth;        /* the event in which the rounding is born; -1: before the first */
     int magnifier;    /* the event that magnifies it most; -1: none does so twice */

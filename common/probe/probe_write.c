@@ -273,6 +273,8 @@ char *probe_text(const Probe *probe)
     if (probe->pixel.draw >= 0) {
         put_steps(file, "computed:", probe->driver.color);
         put_steps(file, "; exactly, the same text:", probe->exact.color);
+        if (probe->judged && !exact)
+            put_steps(file, "; at the pixel itself:", probe->picture);
         fprintf(file, "\n");
         put_trail(file, probe);
     }
@@ -338,6 +340,7 @@ static void write_verdict(JsonWriter *json, const Probe *probe)
     json_write_text(json, "text", said);
     free(said);
     json_write_number(json, "steps", probe->whole);
+    write_numbers(json, "against", probe->picture, 3);
     json_write_number(json, probe->question.exact ? "formula" : "interpolation", probe->formula);
     json_write_number(json, "rounding", probe->rounding);
     json_write_whole(json, "born", probe->birth); /* which of the assignments */

@@ -837,6 +837,10 @@ class Outputs(Case):
                     self.assertAlmostEqual(coarse["verdict"]["steps"], apart, delta=1e-3)
                 self.assertGreater(coarse["verdict"]["interpolation"], 0.01)
                 self.assertAlmostEqual(fine["verdict"]["interpolation"], 0, delta=1e-3)
+                for a, b in zip(fine["verdict"]["against"], fine["exact"]):
+                    self.assertAlmostEqual(a, b, delta=1e-5)
+        text = self.good("--probe", "200,200", program="PointLightedCube").decode()
+        self.assertRegex(text, r"\ncomputed: .*; exactly, the same text: .*; at the pixel itself: [0-9.]+, [0-9.]+, [0-9.]+\n")
 
     def test_output_that_does_not_arrive_is_a_failure(self):
         for arguments in (("--help",), ("--version",), ("-o", "-"), ("--print-shader",),
