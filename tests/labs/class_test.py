@@ -719,7 +719,7 @@ class Results(Class):
         os.makedirs(self.path("tmp"))
         nothing = {"PATH": self.folder, "TMPDIR": self.path("tmp")}
         self.need_somebody()
-        lines = self.lab5("--limit", "2", environment=nothing)
+        lines = self.lab5("--limit", "1", environment=nothing)
         self.assertIn("bubblewrap: bwrap: No such file", lines[0])
         self.assertEqual(self.verdicts(), {"a": "right", "endless": "timeout"})
         self.assertEqual(os.listdir(self.path("tmp")), [])

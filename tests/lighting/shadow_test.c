@@ -24,7 +24,7 @@ static void give_shadows(SceneCopy *copy, const Scene *scene)
 TEST(programs_draw_the_shadows_of_the_reference)
 {
     static const double times[] = {0, 2.3};
-    const int step = testing_step(30);
+    const int step = testing_step(60);
     int number = 0;
     bool all = true;
     for (int i = 0; i < EXAMPLE_COUNT; i++) {
@@ -108,7 +108,7 @@ TEST(lights_may_be_behind_floor_and_wall)
         {"from the side", DIRECTIONAL, {-1, 0.05, 0.1}},
     };
     enum { CASES = sizeof cases / sizeof cases[0] };
-    const int step = testing_step(5);
+    const int step = testing_step(10);
     Random random = {testing_seed(20261122)};
     bool all = true;
     SUCCEEDS(Shadows.init(&(ShaderLoader){.precision = "highp"}, message));
@@ -303,7 +303,7 @@ TEST_WITH(0, lights_may_be_close_before_what_throws_the_shadow, open_meshes, clo
     const Mesh *const meshes[] = {&pot, &pot, &pipe_mesh, &box};
     static const char *const names[] = {"teapot", "teapot", "open pipe", "box"};
     Random random = {testing_seed(20261124)};
-    const int count = testing_part(4 * 60, 6);
+    const int count = testing_part(4 * 60, 12);
     bool all = true;
     for (int i = 0; i < count; i++) {
         char name[96];

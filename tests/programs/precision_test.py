@@ -49,7 +49,8 @@ class Precision(base.Case):
         return found
 
     def test_a_processor_without_16_bits_is_told_apart(self):
-        cache = {"XDG_CACHE_HOME": self.path("cache")}
+        cache = {"XDG_CACHE_HOME": self.path("cache"), "MESA_SHADER_CACHE_DIR":
+                 os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")}
         caps = {"GALLIUM_OVERRIDE_CPU_CAPS": "sse4.1", **cache}
         text = self.precision("--json", "-o", "found", *FEW, environment=caps)
         self.assertEqual(text.encode(), self.read("found/precision.json"))
