@@ -116,6 +116,10 @@ bool mend_open(const Derivation *all, const char *text, bool own, PointShader *s
 /* Whether the pair is right at all points. */
 bool mend_is_right(Derivation *all, PointShader *const pair[2]);
 
+/* Finds how many of the submission's values a mutant of the right program has on its way, and how
+ * alike the texts are. */
+void derive_compare_values(Derivation *all, Found *found);
+
 /* Whether the pair computes what the submission does. */
 bool derive_is_same(Derivation *all, PointShader *const pair[2]);
 

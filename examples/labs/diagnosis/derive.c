@@ -22,14 +22,14 @@ static void take_number(double numbers[MUTATION_NUMBERS], int *count, double num
     for (int i = 0; i < *count; i++)
         if (fabs(numbers[i] - number) <= 1e-9 * number)
             return;
-    if (number > 1e-6 && number < 1e6 && *count < MUTATION_NUMBERS)
+    if (number > 1e-6 && number < 1000 && *count < MUTATION_NUMBERS)
         numbers[(*count)++] = number;
 }
 
 static void take_numbers(const GlslTree *tree, int node, double *numbers, int *count)
 {
     const GlslNode *at = &tree->nodes[node];
-    /* A tiny one draws what 0 does. */
+    /* A tiny one draws what 0 does, and so does a large exponent. */
     if (at->constant && at->type == GLSL_FLOAT && fabs(tree->values[at->value]) >= TINY)
         take_number(numbers, count, tree->values[at->value]);
     for (int i = at->first; i; i = tree->nodes[i].next)
@@ -87,7 +87,7 @@ static void sort_points(Derivation *all)
     qsort(list, (size_t)count, sizeof *list, farthest_first);
     all->wrong_by = list[0].apart;
     for (int step = 0; used < count; step++) {
-        const int stride = 1009; /* a prime above both counts: none is left over */
+        const int stride = 10007; /* a prime above both counts: none is left over */
         if (step < wrong)
             all->order[used++] = list[step * stride % wrong].point;
         if (step < count - wrong)
@@ -152,8 +152,7 @@ static void close_pair(Pair *pair)
     point_shader_close(&pair->other);
 }
 
-/* How many of the submission's values it has on its way, and how alike the texts are. */
-static void compare_values(Derivation *all, Found *found)
+void derive_compare_values(Derivation *all, Found *found)
 {
     Values *own = memory_new(2, sizeof *own), *other = own + 1;
     Pair pair;
@@ -193,7 +192,7 @@ static int compare_texts(const Found *a, const Found *b)
 
 static void take_found(Derivation *all, Found *found)
 {
-    compare_values(all, found);
+    derive_compare_values(all, found);
     const Found *best = &all->best;
     const int order = best->text ? compare_found(found, best) : -1;
     const bool better = order < 0 || (order == 0 && compare_texts(found, best) < 0);
@@ -367,16 +366,16 @@ static bool search(Derivation *all)
     return all->best.text;
 }
 
-/* Two of the right program that is nearest. Of lab 10's sphere normals and places are the same, so
- * that two changes explain too much. */
+/* Two of the right program that is nearest. A shadow is all or nothing, so that two explain too
+ * much. */
 static bool search_two(Derivation *all)
 {
     double apart[2] = {INFINITY, INFINITY};
     for (int i = 0; i < 2; i++)
         if (derive_use_right(all, ENDINGS[i], LIT_NEAREST) && all->wrong_by > 4 * EQUAL)
             apart[i] = all->nearest_right;
-    if (all->lab->budget || !derive_use_right(all, ENDINGS[apart[0] >= apart[1]], LIT_NEAREST) ||
-        !two_find(all, false))
+    if (all->lab->budget || all->lab->shadow ||
+        !derive_use_right(all, ENDINGS[apart[0] >= apart[1]], LIT_NEAREST) || !two_find(all, false))
         return false;
     find_place(all, &all->second);
     return true;
@@ -399,7 +398,8 @@ static bool explain(Derivation *all, Verdict *verdict)
         (derive_use_right(all, "_apart", LIT_NEAREST) && at_vertices_explain(all, verdict)) ||
         (derive_use_right(all, "", LIT_NEAREST) && at_vertices_explain(all, verdict)))
         return true;
-    return two_find(all, true) || (!blind && search_two(all));
+    /* Of lab 10's sphere normals and places are the same, so that two changes explain too much. */
+    return !all->lab->budget && (two_find(all, true) || (!blind && search_two(all)));
 }
 
 bool derive_mistake(Derivation *all, Verdict *verdict)

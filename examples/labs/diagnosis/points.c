@@ -11,7 +11,7 @@
 #include <string.h>
 
 /* Shadows cover little. */
-enum { OF_OBJECT = 24, OF_OBJECT_IN_SHADOW = 100, TRIES = 40 * OF_OBJECT_IN_SHADOW };
+enum { OF_OBJECT = 24, OF_OBJECT_IN_SHADOW = 60, TRIES = 40 * OF_OBJECT_IN_SHADOW };
 
 static unsigned char *read_map(const LabShadowMap *map)
 {
@@ -109,10 +109,11 @@ static bool is_at_edge_of_shadow(const PointSetting *setting, const Point *point
     multiply(value_of(setting, "u_ModelMatrix"), center.position, world);
     const float place[3] = {(float)world[0], (float)world[1], (float)world[2]};
     multiply(value_of(setting, "u_LightMatrix"), place, clip);
-    for (int i = 0; i < 9; i++) {
+    for (int i = 0; i < 18; i++) { /* far and near */
+        const double reach = i < 9 ? REACH : REACH / 3;
         const unsigned char *texel =
-            texel_of(setting, 0.5 * clip[0] / clip[3] + 0.5 + (i % 3 - 1) * REACH,
-                     0.5 * clip[1] / clip[3] + 0.5 + (int)(i / 3 - 1) * REACH);
+            texel_of(setting, 0.5 * clip[0] / clip[3] + 0.5 + (i % 3 - 1) * reach,
+                     0.5 * clip[1] / clip[3] + 0.5 + (i / 3 % 3 - 1) * reach);
         const double nearest = texel[0] / 255.0 + texel[1] / 65025.0;
         const bool hidden = nearest < 0.5 * clip[2] / clip[3] + 0.5 - JUMP;
         dark |= hidden;

@@ -20,7 +20,7 @@ enum {
     MOST_PAIRS = 4000, /* half a second */
     MOST_ANY = 12000,
     SEEN = 6,
-    MAX_VIEWS = 1 + MAX_TERMS,
+    MAX_VIEWS = MAX_TERMS,
     TRACES = 2
 };
 
@@ -88,7 +88,8 @@ static void begin(Search *search)
 {
     Derivation *all = search->all;
     PointShader *base = search->base, *goal = search->goal;
-    search->view_count = 1 + wrong_part_list(all->lab, &search->views[1]);
+    search->view_count = wrong_part_list(all->lab, search->views);
+    search->views[0] = (Term){.without = 0};
     for (int v = 0; v < search->view_count; v++) {
         all->points.without = search->views[v].without;
         for (int i = 0; i < SEEN; i++) {
@@ -151,12 +152,22 @@ static bool open_changed(const Search *search, const char *text, PointShader *sh
     return mend_open(search->all, text, search->mends, shader);
 }
 
+/* A shadow is all or nothing, and many curves make all or nothing of a number. */
+static bool is_curve_of_shadow(const Derivation *all, const Mutation *mutation)
+{
+    static const char *const CURVES[] = {"pow(", "exp(", "sqrt(", "min(", "max("};
+    bool curve = false;
+    for (int i = 0; i < 5 && all->lab->shadow; i++)
+        curve |= strstr(mutation->by, CURVES[i]) && !strstr(mutation->was, CURVES[i]);
+    return curve;
+}
+
 static bool try_first(void *context, const Mutation *mutation, const char *text)
 {
     Search *search = context;
     Derivation *all = search->all;
     PointShader shader, *pair[2] = {&search->base[0], &search->base[1]};
-    if (!open_changed(search, text, &shader))
+    if (is_curve_of_shadow(all, mutation) || !open_changed(search, text, &shader))
         return true;
     pair[all->stage] = &shader;
     Step step = {.mutation = *mutation,
@@ -195,24 +206,32 @@ static bool is_found(const Search *search, const Mutation *second)
            (strcmp(first, b) == 0 && strcmp(second->mends, a) == 0);
 }
 
+/* Of the submission's changes the likelier ones; of the right program's those that have most of the
+ * submission's values on the way, then those without a name or number that was tried. */
 static void take_pair(Search *search, const Mutation *second, int rank, const char *text)
 {
     Derivation *all = search->all;
-    const Step *first = &search->steps[search->first];
-    if (all->two_found && rank == search->best_rank) {
-        all->unique &= is_found(search, second);
+    const Step *step = &search->steps[search->first];
+    Found first = {.mutation = step->mutation, .stage = step->stage, .text = step->text};
+    Found found = {.mutation = *second, .stage = all->stage, .text = (char *)text, .first = &first};
+    if (!search->mends)
+        derive_compare_values(all, &found);
+    const bool better = !all->two_found || found.shared > all->second.shared ||
+                        (found.shared == all->second.shared && rank < search->best_rank);
+    if (!better) {
+        all->unique &= found.shared < all->second.shared || rank > search->best_rank ||
+                       is_found(search, second);
         return;
     }
     free(all->mending.text);
     free(all->second.text);
     all->unique = all->two_found = true;
     search->best_rank = rank;
-    all->mending = (Found){
-        .mutation = first->mutation, .stage = first->stage, .text = memory_text(first->text)};
-    all->second = (Found){.mutation = *second,
-                          .stage = all->stage,
-                          .first = &all->mending,
-                          .text = memory_text(text)};
+    all->mending = first;
+    all->mending.text = memory_text(first.text);
+    all->second = found;
+    all->second.text = memory_text(text);
+    all->second.first = &all->mending;
 }
 
 static bool try_second(void *context, const Mutation *mutation, const char *text)
@@ -220,10 +239,11 @@ static bool try_second(void *context, const Mutation *mutation, const char *text
     Search *search = context;
     Derivation *all = search->all;
     const Step *first = &search->steps[search->first];
-    const int rank = first->mutation.rank + mutation->rank;
+    const bool tried = !search->mends && !(first->mutation.general && mutation->general);
+    const int rank = first->mutation.rank + mutation->rank + (tried ? 1000 : 0);
     PointShader shader, *pair[2] = {&search->base[0], &search->base[1]};
-    if ((all->two_found && rank > search->best_rank) ||
-        (!search->any && !is_step(search, mutation)))
+    if ((search->mends && all->two_found && rank > search->best_rank) ||
+        is_curve_of_shadow(all, mutation) || (!search->any && !is_step(search, mutation)))
         return true;
     search->pairs++;
     if (!open_changed(search, text, &shader))
