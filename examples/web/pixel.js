@@ -51,7 +51,7 @@ const Pixel = (() => {
 
     /* {text, picture} or {message}. */
     async function ask(what, values, task = of.task(), from = of) {
-        const [used, source] = from.module?.() || [await (compiled ||= compileLighting(probe())), probe()];
+        const [used, source] = from?.module?.() || [await (compiled ||= compileLighting(probe())), probe()];
         device ||= AS || Precision.device();
         const data = {id: ++count, compiled: used, task, device, what, values};
         if (drawn !== used) {
