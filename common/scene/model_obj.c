@@ -414,6 +414,8 @@ static bool read_lines(Obj *obj)
         obj->at += strcspn(obj->at, "\n");
         obj->at += *obj->at == '\n';
     }
+    if (obj->positions.count == 0)
+        return message_set(obj->reason, "it has no vertices; is it an OBJ file?");
     return end_mesh(obj);
 }
 
