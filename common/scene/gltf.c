@@ -37,11 +37,12 @@ static int kind_of_light(const json_t *light)
 
 static bool add_light(Reading *reading, const json_t *node, int number)
 {
-    const json_int_t index = gltf_whole(gltf_extension(node, "KHR_lights_punctual"), "light", -1);
+    const json_t *placed = gltf_extension(node, "KHR_lights_punctual");
+    const json_int_t index = gltf_whole(placed, "light", -1);
     const json_t *all =
         json_object_get(gltf_extension(reading->gltf.root, "KHR_lights_punctual"), "lights");
     const json_t *from = index >= 0 ? json_array_get(all, (size_t)index) : NULL;
-    if (index < 0)
+    if (!placed)
         return true;
     if (!from)
         return message_set(reading->gltf.reason, "lights %lld: there is none; the file has %zu",

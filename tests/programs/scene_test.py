@@ -377,6 +377,8 @@ class Scene(base.Case):
         yield "a.glb", glb(tetrahedron(), far), "index 9; there are 4 vertices"
         flat = struct.pack("<12f12H", *(0,) * 12, *CORNERS)
         yield "a.glb", glb(tetrahedron(), flat), "no triangle with an area"
+        for none in False, 3, None, -1:
+            yield "a.gltf", tetrahedron(nodes=[{"mesh": 0, "extensions": {"KHR_lights_punctual": {"light": none}}}]), "there is none"
         yield "a.gltf", tetrahedron(extensionsRequired=["KHR_draco_mesh_compression"]), "requires KHR_draco"
         yield "a.dae", b"<COLLADA>", "cannot read"
         yield "a.obj", b"mtllib ../../../etc/passwd\n", "holds no triangle with an area"
