@@ -112,8 +112,10 @@ class Films(Parts):
 
     def test_parts_of_different_programs_are_not_merged(self):
         draw = (*TURN, "--shaders", os.path.join(base.SOURCE, "shaders"), "-o", "a.gif")
-        other = self.path("bin/LightedCube_animation")
-        os.mkdir(self.path("bin"))
+        other = self.path("build/examples/LightedCube_animation")
+        os.makedirs(os.path.dirname(other))
+        for name in "common", "source_root":  # its plugins
+            os.symlink(os.path.join(base.EXAMPLES, "..", name), self.path("build", name))
         shutil.copy(os.path.join(base.EXAMPLES, "LightedCube_animation"), other)
         with open(other, "ab") as file:
             file.write(b"changed")
