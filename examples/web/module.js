@@ -174,12 +174,12 @@ class Engine {
             },
         }).then(resolve, reject));
         if (files)
-            await engine.put(files, answer);
+            await engine.lay(files, answer);
         return engine;
     }
 
     /* Where the module looks for files, and what their reader answers (process_web.c). */
-    async put(files, answer) {
+    async lay(files, answer) {
         const {FS} = this.module, bytes = async blob => new Uint8Array(await blob.arrayBuffer());
         FS.mkdir("/files");
         FS.chdir("/files");
