@@ -43,7 +43,7 @@ const LabWorker = (() => {
                 if (data.what === "lose")
                     return engine.module.canvas.getContext("webgl2").getExtension("WEBGL_lose_context").loseContext();
                 if (data.own && !engine.own)
-                    engine.own = Object.entries(data.own).every(([name, text]) => engine.put(data.lab + "/" + name, text));
+                    engine.own = Object.entries(data.own).every(([name, text]) => engine.putLab(data.lab + "/" + name, text));
                 if (engine.run([data.lab]) !== 0 || !engine.replace(data.texts))
                     throw engine.message;
                 self.postMessage(data.what === "check" ? check(data) : draw(data));

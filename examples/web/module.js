@@ -260,7 +260,7 @@ class Engine {
     }
 
     /* A file of a lab that is not the module's. */
-    put(path, text) { return this.module.ccall("page_own", "number", ["string", "string"], [path, text]) === 1; }
+    putLab(path, text) { return this.module.ccall("page_own", "number", ["string", "string"], [path, text]) === 1; }
 
     close() { this.module.ccall("page_close", null, [], []); }
 }

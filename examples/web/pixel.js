@@ -26,7 +26,7 @@ const Pixel = (() => {
             drawn = "";
             const capture = () => engine.module.ccall("page_capture", "number", ["string", "number"], [device, task.seconds || 0]) === 1;
             if (task.own && !engine.own)
-                engine.own = Object.entries(task.own).every(([name, text]) => engine.put(task.lines[0] + "/" + name, text));
+                engine.own = Object.entries(task.own).every(([name, text]) => engine.putLab(task.lines[0] + "/" + name, text));
             /* A lab is open before it has texts. */
             const begun = task.lab ? engine.run(task.lines) === 0 && engine.replace(task.texts) :
                 engine.replace(task.texts) && engine.run(task.lines) === 0;
