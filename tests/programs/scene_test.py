@@ -309,21 +309,21 @@ class Scene(base.Case):
                            extensions={"KHR_lights_punctual": {"lights": table}})
 
     def test_what_does_not_reach_is_not_seen(self):
-        """A light that is left out changes no pixel by more than half a step: rounded to bytes, by one. But a pixel at an outline may
-        show a back face, which is left out of closed objects, too."""
-        rules, seen = set(), 0
+        """A light that is left out changes no pixel by more than half a step: rounded to bytes, by one. Every second file lacks a
+        face of each object. The others are closed, and a pixel or two at outlines show a back face, which is left out, too."""
+        rules = set()
         for case in range(100)[::base.step(25)]:
-            self.save("a.gltf", self.lit_file(random.Random(SEED + case)))
+            file = self.lit_file(random.Random(SEED + case))
+            is_open = case // base.step(25) % 2
+            if is_open:
+                file["accessors"][1]["count"] = 9
+            self.save("a.gltf", file)
             arguments = ("a.gltf", "--exposure", "1", "-s", "160x160")
             some, every = (self.drawn(*arguments, *full, program="Scene").pixels for full in ((), ("--full",)))
-            for i in {i // 3 * 3 for i in range(len(some)) if abs(some[i] - every[i]) > 1}:
-                around = [i + 3 * (x + 160 * y) for x in (-1, 0, 1) for y in (-1, 0, 1)]
-                around = [some[k + c] for k in around if 0 <= k < len(some) for c in range(3)]
-                self.assertGreater(max(max(around[c::3]) - min(around[c::3]) for c in range(3)), 4, (SEED + case, i // 3 % 160, i // 480))
-                seen += 1
+            others = {i // 3 for i in range(len(some)) if abs(some[i] - every[i]) > 1}
+            self.assertLessEqual(len(others), 0 if is_open else 4, (SEED + case, [(i % 160, i // 160) for i in others]))
             said = self.good(*arguments, "--explain", program="Scene").decode()
             rules.update(re.findall("beyond its range|its cone misses|too faint", said))
-        self.assertLessEqual(seen, 10)
         self.assertIn("beyond its range", rules)
         self.assertIn("its cone misses", rules)
 
