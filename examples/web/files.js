@@ -47,7 +47,8 @@ const Files = (() => {
     /* Of a folder all that is in it, by its path there. */
     async function list(entry, path, files) {
         if (entry.isFile)
-            files.push({name: path + entry.name, blob: await new Promise((resolve, reject) => entry.file(resolve, reject))});
+            files.push({name: path + entry.name, blob: await new Promise((resolve, reject) =>
+                entry.file(resolve, () => reject(path + entry.name + ": cannot be read here; choose or drop the files alone")))});
         for (const reader = entry.isDirectory && entry.createReader(); reader;) {
             const some = await new Promise((resolve, reject) => reader.readEntries(resolve, reject));
             if (!some.length || files.length > 10000)
@@ -57,13 +58,15 @@ const Files = (() => {
         }
     }
 
+    /* Files as the browser gives them: a page that is opened from disk gets no others. */
     async function dropped(transfer) {
-        const files = [], entries = [...transfer.items].map(item => item.webkitGetAsEntry()).filter(entry => entry);
+        const files = [], given = [...transfer.files].map(blob => ({name: blob.name, blob}));
+        const entries = [...transfer.items].map(item => item.webkitGetAsEntry()).filter(entry => entry);
+        if (entries.every(entry => entry.isFile))
+            return given;
         for (const entry of entries)
             await list(entry, "", files);
-        if (!entries.length)
-            return [...transfer.files].map(blob => ({name: blob.name, blob}));
-        const alone = entries.length === 1 && entries[0].isDirectory ? entries[0].name.length + 1 : 0;
+        const alone = entries.length === 1 ? entries[0].name.length + 1 : 0;
         return files.map(({name, blob}) => ({name: name.slice(alone), blob}));
     }
 

@@ -235,7 +235,7 @@ TEST(no_picture_has_a_larger_error_than_is_proved)
 
 TEST(nor_has_one_from_a_range_of_cameras)
 {
-    check_scenes(testing_part(120, 40), true);
+    check_scenes(testing_part(60, 20), true);
 }
 
 PICTURE_TEST_MAIN("prove", measure, close_meshes)
