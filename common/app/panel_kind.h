@@ -24,7 +24,9 @@ typedef struct PanelKind {
     /* Copies the map of the last result, if that has another number. */
     void (*map)(struct ErrorWorker *worker, Image *map, int *number);
 
-    void (*write_effects)(Renderer *renderer, const DrawRequest *request, FILE *file);
+    /* As a text, and as a list. */
+    void (*write_effects)(Renderer *renderer, const DrawRequest *request, FILE *file,
+                          PanelObjects *objects);
 
     /* The lights of all views as the example has them; how many. */
     int (*lights)(Renderer *renderer, const DrawRequest *request, Light lights[SCENE_MAX_PLACED]);

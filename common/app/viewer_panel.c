@@ -113,6 +113,17 @@ PanelPicture viewer_panel_picture(const Renderer *renderer, const DrawRequest *r
         .request = *request, .width = renderer->canvas->width, .height = renderer->canvas->height};
 }
 
+static void close_effects(ViewerPanel *panel)
+{
+    for (int i = 0; i < panel->objects.count; i++) {
+        free(panel->objects.all[i].row);
+        free(panel->objects.all[i].effects);
+    }
+    free(panel->objects.all);
+    free(panel->effects);
+    panel->objects = (PanelObjects){0};
+}
+
 /* Lists the effects that the scene calls for, a few times per second. */
 static void update_effects(ViewerPanel *panel, Renderer *renderer, const DrawRequest *request)
 {
@@ -123,9 +134,9 @@ static void update_effects(ViewerPanel *panel, Renderer *renderer, const DrawReq
     if (!panel->effects_wanted || (known && now - panel->effects_time < EFFECTS_SECONDS))
         return;
     panel->effects_wanted = false;
-    free(panel->effects);
+    close_effects(panel);
     output_text_open(&text);
-    panel->kind->write_effects(renderer, request, text.file);
+    panel->kind->write_effects(renderer, request, text.file, &panel->objects);
     panel->effects = output_text_close(&text);
     panel->effects_time = now;
     panel->effects_of = viewer_panel_picture(renderer, request);
@@ -316,6 +327,7 @@ static PanelContent content_of(ViewerPanel *panel, const ViewerPanelInput *input
                           .error = known_error(panel),
                           .pixel = input->pixel,
                           .effects = panel->effects,
+                          .objects = panel->objects,
                           .command = panel->command[0] ? panel->command : NULL,
                           .help = panel->help ? help_of(panel) : NULL,
                           .errors = trouble->text[0] ? trouble->text : NULL,
@@ -401,7 +413,7 @@ void viewer_panel_close(ViewerPanel *panel)
         panel->kind->close(panel->worker);
     panel_draw_close(&panel->draw);
     panel_close(panel->panel);
-    free(panel->effects);
+    close_effects(panel);
     image_close(&panel->map);
     *panel = (ViewerPanel){0};
 }

@@ -61,6 +61,7 @@ typedef struct ViewerPanel {
     bool stale;   /* the parameters have changed since */
     int renewals; /* how often they have */
     char *effects;
+    PanelObjects objects;
     double effects_time; /* clock_now when they were listed; 0: the parameters have changed */
     PanelPicture effects_of;
     char command[VIEWER_COMMAND_SIZE];

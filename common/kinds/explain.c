@@ -22,9 +22,7 @@ typedef struct Explained {
     ExplainedObject *all;
     int count;
     bool receipts; /* below the effects, their lines */
-    /* Not printed yet: objects that are as number `same`, the first and the last by view and
-     * object.
-     */
+    /* Not printed yet: objects as number `same`, the first and last by view and object. */
     int same, same_count, same_from[2], same_to[2];
 } Explained;
 
@@ -52,9 +50,9 @@ static char *effects_text(const LightingPlan *plan, int object)
     return output_text_close(&text);
 }
 
-/* Ends a heading. Writes an object's effects, or which earlier object has the same; false then. */
-static bool write_effects(const LightingPlan *plan, int number, int object, Explained *explained,
-                          FILE *file)
+/* Ends a heading. Writes an object's effects, or which earlier one has the same; returns that. */
+static const ExplainedObject *write_effects(const LightingPlan *plan, int number, int object,
+                                            Explained *explained, FILE *file)
 {
     char *text = effects_text(plan, object);
     fputc('\n', file);
@@ -63,7 +61,7 @@ static bool write_effects(const LightingPlan *plan, int number, int object, Expl
         if (strcmp(earlier->text, text) == 0) {
             fprintf(file, "as view %d, object %d\n", earlier->view, earlier->object);
             free(text);
-            return false;
+            return earlier;
         }
     }
     if (explained->receipts)
@@ -71,7 +69,29 @@ static bool write_effects(const LightingPlan *plan, int number, int object, Expl
     else
         fputs(text, file);
     explained_add(explained, (ExplainedObject){text, number, object});
-    return true;
+    return &explained->all[explained->count - 1];
+}
+
+/* "object 12, Lid: lights 0, 3". */
+static void list_object(const LightingPlan *plan, int object, const char *name, const char *effects,
+                        PanelObjects *objects)
+{
+    const Effects decided = lighting_plan_effects(plan, object);
+    uint64_t lights = 0;
+    OutputText row;
+    output_text_open(&row);
+    fprintf(row.file, "object %d%s%.*s", object, name[0] ? ", " : "", (int)strcspn(name, "\n"),
+            name);
+    for (int g = 0; g < decided.group_count; g++)
+        for (int i = 0; i < decided.groups[g].count; i++)
+            lights |= 1ull << decided.groups[g].lights[i];
+    for (int i = 0; lights >> i; i++)
+        if (lights >> i & 1)
+            fprintf(row.file, "%s%d", lights & ((1ull << i) - 1) ? ", " : ": lights ", i);
+    fputs(lights ? "" : ": no light", row.file);
+    *(PanelObject *)memory_add(&objects->all, &objects->count, &objects->room,
+                               sizeof(PanelObject)) =
+        (PanelObject){output_text_close(&row), memory_text(effects)};
 }
 
 /* What is drawn of a view. */
@@ -85,7 +105,8 @@ static bool plan_view(LightingPlan *plan, Renderer *renderer, const DrawRequest 
     return lighting_plan(plan, lighting, &frame, message);
 }
 
-void explain_effects(Renderer *renderer, const DrawRequest *request, FILE *file)
+void explain_effects(Renderer *renderer, const DrawRequest *request, FILE *file,
+                     PanelObjects *objects)
 {
     Explained explained = {0};
     for (int number = 0; number < scene_view_count(renderer); number++) {
@@ -94,10 +115,11 @@ void explain_effects(Renderer *renderer, const DrawRequest *request, FILE *file)
         if (scene_view_open(&view, renderer, request, request->seconds, number, NULL) &&
             plan_view(&plan, renderer, request, &view, NULL))
             for (int i = 0; i < view.scene.object_count; i++) {
-                const char *name = view.scene.objects[i].name;
+                const char *known = view.scene.objects[i].name, *name = known ? known : "";
                 fprintf(file, "# %s, view %d, object %d%s%s", renderer->example->name, number, i,
-                        name && name[0] ? ", " : "", name ? name : "");
-                write_effects(&plan, number, i, &explained, file);
+                        name[0] ? ", " : "", name);
+                const ExplainedObject *as = write_effects(&plan, number, i, &explained, file);
+                list_object(&plan, i, name, as->text, objects);
             }
         lighting_plan_close(&plan);
         scene_view_close(&view);
@@ -365,7 +387,8 @@ static void explain_objects(const Renderer *renderer, const LightingPlan *plan, 
             continue;
         }
         printf("# %s, view %d, object %d", renderer->example->name, number, i);
-        if (write_effects(plan, number, i, explained, stdout))
+        const ExplainedObject *as = write_effects(plan, number, i, explained, stdout);
+        if (as->view == number && as->object == i)
             print_operations(plan, i, true);
         printf("\n");
     }

@@ -107,8 +107,9 @@ void ineffective_scene_options(const Example *example, const Options *options,
 
 /* The effects that the views of a scene need, and what their programs cost. */
 
-/* Writes the effects at the request's time, by view and object. */
-void explain_effects(Renderer *renderer, const DrawRequest *request, FILE *file);
+/* Writes the effects at the request's time, by view and object, and lists them. */
+void explain_effects(Renderer *renderer, const DrawRequest *request, FILE *file,
+                     PanelObjects *objects);
 
 /* --explain: the same on standard output, with each program's operations; without --verbose a
  * screenful, the first object in full and of the others what differs. Compiles the programs, so

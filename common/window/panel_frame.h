@@ -59,6 +59,15 @@ typedef struct PanelPixel {
     const char *legend;       /* what its colours mean, in lines */
 } PanelPixel;
 
+/* The objects of a picture: what is in their list, and the lines of each one's effects. */
+typedef struct PanelObject {
+    char *row, *effects;
+} PanelObject;
+typedef struct PanelObjects {
+    PanelObject *all;
+    int count, room;
+} PanelObjects;
+
 /* What to show. Texts are UTF-8; NULL: none. */
 typedef struct PanelContent {
     const char *name; /* of the program: the title */
@@ -76,6 +85,7 @@ typedef struct PanelContent {
     PanelError error;
     PanelPixel pixel;
     const char *effects;      /* lines, as effects_explain writes them */
+    PanelObjects objects;     /* of many their list is shown */
     const char *command;      /* that draws this picture */
     const char *const *tries; /* arguments to try, a button each; ended by NULL; may be NULL */
     const char *const *looks; /* what to look for in each; may be NULL */

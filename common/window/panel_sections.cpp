@@ -305,88 +305,38 @@ void pixel_section(const PanelContent &content, PanelResult &result)
     ImGui::PopStyleColor();
 }
 
-// The headings of a list of effects, one for each object.
-std::vector<const char *> headings(const char *text)
-{
-    std::vector<const char *> found;
-    for (const char *line = text; line;
-         line = std::strchr(line, '\n'), line = line ? line + 1 : line)
-        if (*line == '#')
-            found.push_back(line);
-    return found;
-}
-
-// Below a heading, or below that of the object that it is as.
-const char *body_of(const std::vector<const char *> &all, size_t i)
-{
-    int as[2], is[2];
-    const char *body = std::strchr(all[i], '\n') + 1;
-    if (std::sscanf(body, "as view %d, object %d", &as[0], &as[1]) != 2)
-        return body;
-    for (size_t k = 0; k < i; k++) {
-        const char *view = std::strstr(all[k], "view ");
-        if (std::sscanf(view, "view %d, object %d", &is[0], &is[1]) == 2 && is[0] == as[0] &&
-            is[1] == as[1])
-            return std::strchr(view, '\n') + 1;
-    }
-    return body;
-}
-
-// "object 12, Lid: lights 0, 3".
-void describe(const char *heading, const char *body, char *row, size_t size)
-{
-    const char *name = std::strstr(heading, "object "), *before = ": lights ";
-    size_t used = std::min(size_t(std::strcspn(name, "\n")), size / 2);
-    std::snprintf(row, size, "%.*s", int(used), name);
-    for (const char *line = body; line && *line && *line != '#';
-         line = std::strchr(line, '\n'), line += line != nullptr) {
-        int light;
-        if (std::sscanf(line, "light %d:", &light) == 1 && used + 16 < size) {
-            used += size_t(std::snprintf(row + used, size - used, "%s%d", before, light));
-            before = ", ";
-        }
-    }
-    if (*before == ':')
-        std::snprintf(row + used, size - used, ": no light");
-}
-
 // One of many objects is chosen from a list that scrolls; its effects are below.
-void put_objects(Context &context, const std::vector<const char *> &all, float height)
+void put_objects(Context &context, const PanelObjects &objects, float height)
 {
-    const int count = int(all.size());
-    context.object = std::min(std::max(context.object, 0), count - 1);
+    context.object = std::min(std::max(context.object, 0), objects.count - 1);
     if (ImGui::BeginChild("objects", ImVec2(0, height / 2), true)) {
         ImGuiListClipper clipper;
-        clipper.Begin(count);
+        clipper.Begin(objects.count);
         while (clipper.Step())
             for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; i++) {
-                char row[160];
-                describe(all[size_t(i)], body_of(all, size_t(i)), row, sizeof row);
-                if (ImGui::Selectable(row, i == context.object))
+                ImGui::PushID(i); // rows may be equal
+                if (ImGui::Selectable(objects.all[i].row, i == context.object))
                     context.object = i;
+                ImGui::PopID();
             }
     }
     ImGui::EndChild();
-    const char *body = body_of(all, size_t(context.object)), *end = std::strstr(body, "\n#");
-    std::vector<char> text(body, end ? end : body + std::strlen(body));
-    text.push_back('\0');
-    put_lines("effects", text.data(), height / 2, effect_color);
+    put_lines("effects", objects.all[context.object].effects, height / 2, effect_color);
 }
 
 // As high as the rest of the panel leaves room for. Returns its height.
 float effects_section(Context &context, const PanelContent &content, float room)
 {
     constexpr float MIN_LINES = 4, MAX_LINES = 16;
-    constexpr size_t MANY = 8; // objects: a list
+    constexpr int MANY = 8; // objects: a list
     if (!content.effects || !content.effects[0] ||
         !ImGui::CollapsingHeader("Effects", ImGuiTreeNodeFlags_DefaultOpen))
         return 0;
     const float line = ImGui::GetTextLineHeightWithSpacing();
     const float height =
         std::min(std::max(room - context.other_height, MIN_LINES * line), MAX_LINES * line);
-    const std::vector<const char *> all = headings(content.effects);
-    if (all.size() > MANY)
-        put_objects(context, all, height);
+    if (content.objects.count > MANY)
+        put_objects(context, content.objects, height);
     else
         put_lines("effects", content.effects, height, effect_color);
     return height;

@@ -901,6 +901,10 @@ PANEL_TEST(test_no_input_makes_an_impossible_value)
     content.defaults = defaults;
     content.effects = "# object\nwithout a back: it is lit as the front\ndiffuse: both have it";
     content.command = "LightedCube";
+    PanelObject objects[20];
+    for (int i = 0; i < 20; i++)
+        objects[i] = (PanelObject){i % 2 ? "object, Lid: lights 0, 3" : "", i % 3 ? "diffuse" : ""};
+    content.objects = (PanelObjects){objects, 20, 20};
     for (int i = 0; i < 6000; i++) {
         random = random * 6364136223846793005U + 1442695040888963407U;
         const unsigned r = (unsigned)(random >> 33);
