@@ -74,11 +74,11 @@ char *input_whole(const char *path, size_t *size, Message *message)
     const off_t room = file < 0 ? -1 : lseek(file, 0, SEEK_END);
     char *bytes = room < 0 || lseek(file, 0, SEEK_SET) != 0 ? NULL : malloc((size_t)room + 1);
     const ssize_t got = bytes ? input_bytes(file, bytes, (size_t)room) : -1;
-    if (got < 0)
+    if (got >= 0) {
+        *size = (size_t)got;
+        bytes[got] = '\0';
+    } else {
         message_set(message, "%s", bytes || room < 0 ? strerror(errno) : "not enough memory");
-    else
-        bytes[ *size = (size_t)got] = '\0';
-    if (got < 0) {
         free(bytes);
         bytes = NULL;
     }

@@ -88,11 +88,6 @@ typedef struct EyeScene {
     EyeLight lights[EFFECTS_MAX_LIGHTS];
 } EyeScene;
 
-static Vec3 multiply(Vec3 a, Vec3 b)
-{
-    return (Vec3){a.x * b.x, a.y * b.y, a.z * b.z};
-}
-
 static EyeLight eye_light(const LightingTransforms *transforms, const Camera *camera,
                           Mat4 eye_from_world, const Light *light)
 {
@@ -220,7 +215,7 @@ static void set_colors(const GLint locations[3], const EyeScene *eye, const Ligh
             /* In the full program a light that is off is black, and attenuation has its own
              * uniform. */
             const double share = light->off ? 0 : group->terms.any ? 1 : eye->lights[number].share;
-            const Vec3 all = vec3_scale(multiply(color, reflected[k]), share);
+            const Vec3 all = vec3_scale(color_product(color, reflected[k]), share);
             vec3_to_float((Vec3){fmin(all.x, max), fmin(all.y, max), fmin(all.z, max)},
                           &values[3 * i]);
         }
@@ -236,7 +231,7 @@ static void set_side(const LightingVariant *variant, int side, const EyeScene *e
     const LightingProgram *program = variant->program;
     const SideLocations *at = &program->sides[side];
     const Material material = effects_material(object, side == 1);
-    const Vec3 ambient = multiply(eye->ambient, material.ambient);
+    const Vec3 ambient = color_product(eye->ambient, material.ambient);
     const bool colored = variant->key.effects.vertex_color;
     if (at->base >= 0)
         shader_set_vec3(at->base,

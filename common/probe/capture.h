@@ -77,6 +77,4 @@ void capture_close(Capture *capture); /* a zeroed one is fine */
  */
 void capture_attribute(const CaptureAttribute *attribute, unsigned vertex, float value[4]);
 
-const CaptureUniform *capture_uniform(const CaptureDraw *draw, const char *name); /* or NULL */
-
 #endif

@@ -40,11 +40,3 @@ void capture_attribute(const CaptureAttribute *attribute, unsigned vertex, float
             value[i] = number_at(attribute->bytes + at + one * (size_t)i, attribute->type,
                                  attribute->normalized);
 }
-
-const CaptureUniform *capture_uniform(const CaptureDraw *draw, const char *name)
-{
-    for (int i = 0; i < draw->uniform_count; i++)
-        if (strcmp(draw->uniforms[i].name, name) == 0)
-            return &draw->uniforms[i];
-    return NULL;
-}

@@ -58,6 +58,12 @@ static inline bool color_is_black(Vec3 color)
     return color.x == 0 && color.y == 0 && color.z == 0;
 }
 
+/* By channel: light and reflectivity. */
+static inline Vec3 color_product(Vec3 a, Vec3 b)
+{
+    return (Vec3){a.x * b.x, a.y * b.y, a.z * b.z};
+}
+
 /* As a reflectivity: each from 0 to 1. */
 static inline Vec3 color_within_one(Vec3 color)
 {

@@ -144,11 +144,6 @@ static void note_material(SceneFile *file, const struct aiMaterial *material, do
         scene_file_note(file, NOTE_TRANSPARENT);
 }
 
-static Vec3 multiply(Vec3 a, Vec3 b)
-{
-    return (Vec3){a.x * b.x, a.y * b.y, a.z * b.z};
-}
-
 /* Of the texture of a material's diffuse colour; white: it has none. */
 static Vec3 texture_color(Walk *walk, const struct aiMaterial *material)
 {
@@ -177,8 +172,8 @@ static void set_material(Walk *walk, const struct aiMaterial *from, Object *obje
     color_of(from, "$clr.diffuse", &to->diffuse);
     if (!color_of(from, "$clr.ambient", &to->ambient) || color_is_black(to->ambient))
         to->ambient = to->diffuse;
-    to->ambient = multiply(to->ambient, mean);
-    to->diffuse = multiply(to->diffuse, mean);
+    to->ambient = color_product(to->ambient, mean);
+    to->diffuse = color_product(to->diffuse, mean);
     color_of(from, "$clr.emissive", &to->emission);
     to->shininess = fmin(fmax(number_of(from, "$mat.shininess", 0), 0), 128);
     if (color_of(from, "$clr.specular", &to->specular))

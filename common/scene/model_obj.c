@@ -150,11 +150,6 @@ static void read_material_line(Obj *obj, const char *at, Paint *paint)
     free(rest);
 }
 
-static Vec3 multiply(Vec3 a, Vec3 b)
-{
-    return (Vec3){a.x * b.x, a.y * b.y, a.z * b.z};
-}
-
 static void read_materials(Obj *obj, const char *path)
 {
     Message why = {0};
@@ -176,8 +171,9 @@ static Object painted(const Paint *paint)
 {
     Object object = paint->object;
     Material *to = &object.front;
-    to->ambient = multiply(color_is_black(to->ambient) ? to->diffuse : to->ambient, paint->mean);
-    to->diffuse = multiply(to->diffuse, paint->mean);
+    to->ambient =
+        color_product(color_is_black(to->ambient) ? to->diffuse : to->ambient, paint->mean);
+    to->diffuse = color_product(to->diffuse, paint->mean);
     if (to->shininess == 0) /* no exponent: no highlight */
         to->specular = (Vec3){0, 0, 0};
     object.back = *to;
@@ -199,7 +195,7 @@ static bool fill_mesh(Obj *obj, Mesh *mesh, Vec3 diffuse)
         if (corner->normal >= 0)
             memcpy(mesh->vertices[i].normal, obj->normals.all[corner->normal], bytes);
         if (obj->colored)
-            vec3_to_float(color_within_one(multiply(
+            vec3_to_float(color_within_one(color_product(
                               vec3_from_float(obj->colors.all[corner->position]), diffuse)),
                           mesh->colors[i]);
     }

@@ -118,11 +118,6 @@ static bool open_loop(Message *message)
            loop.diffuse >= 0 && loop.specular >= 0 && loop.eye_from_object >= 0;
 }
 
-static Vec3 multiply(Vec3 a, Vec3 b)
-{
-    return (Vec3){a.x * b.x, a.y * b.y, a.z * b.z};
-}
-
 static void loop_object(const Object *object, Mat4 eye_from_world, Mat4 clip_from_eye)
 {
     float diffuse[MOST_LIGHTS][3], specular[MOST_LIGHTS][3];
@@ -133,12 +128,13 @@ static void loop_object(const Object *object, Mat4 eye_from_world, Mat4 clip_fro
     Vec3 ambient = scene.global_ambient;
     for (int i = 0; i < scene.light_count; i++) {
         ambient = vec3_add(ambient, lights[i].ambient);
-        vec3_to_float(multiply(lights[i].diffuse, material->diffuse), diffuse[i]);
-        vec3_to_float(multiply(lights[i].specular, material->specular), specular[i]);
+        vec3_to_float(color_product(lights[i].diffuse, material->diffuse), diffuse[i]);
+        vec3_to_float(color_product(lights[i].specular, material->specular), specular[i]);
     }
     shader_set_mat4(loop.clip_from_object, mat4_product(clip_from_eye, eye_from_object));
     shader_set_mat4(loop.eye_from_object, eye_from_object);
-    shader_set_vec3(loop.base, vec3_add(material->emission, multiply(ambient, material->ambient)));
+    shader_set_vec3(loop.base,
+                    vec3_add(material->emission, color_product(ambient, material->ambient)));
     glUniform1fv(loop.shininess, 1, &shininess);
     glUniform3fv(loop.diffuse, scene.light_count, diffuse[0]);
     glUniform3fv(loop.specular, scene.light_count, specular[0]);

@@ -25,23 +25,21 @@ static double pixels_of(const Proof *proof, const ProofTriangle *triangle, int k
     return (proof->driver.height ? proof->driver.height : viewport[2 + k]) / 2.0;
 }
 
+static GlslRange range_minus(GlslRange a, GlslRange b)
+{
+    return range_sum(a, (GlslRange){-b.high, -b.low});
+}
+
 /* The range of a corner's number, or of its difference from another's. */
 static GlslRange apart(const Output *a, const Output *b, const ProofBox *box)
 {
     const double middle = a->value - (b ? b->value : 0);
     double reach = a->slack + (b ? b->slack : 0);
     for (int k = 2; k < GLSL_WAYS; k++)
-        if (box->half[k] > 0) {
-            const GlslRange less =
-                b ? (GlslRange){-b->slope[k].high, -b->slope[k].low} : (GlslRange){0, 0};
-            reach += box->half[k] * magnitude(range_sum(a->slope[k], less));
-        }
+        if (box->half[k] > 0)
+            reach +=
+                box->half[k] * magnitude(b ? range_minus(a->slope[k], b->slope[k]) : a->slope[k]);
     return (GlslRange){middle - reach, middle + reach};
-}
-
-static GlslRange range_minus(GlslRange a, GlslRange b)
-{
-    return range_sum(a, (GlslRange){-b.high, -b.low});
 }
 
 /* The determinant of x, y and w of the corners: positive, if it is seen counterclockwise. */
