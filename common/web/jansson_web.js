@@ -1,5 +1,5 @@
-/* What of jansson the reader of glTF calls, by the browser's own JSON. A json_t is {type, refcount} in the module's memory, never
- * freed: the worker that reads a file ends. An iterator is the key's text. */
+/* What of jansson the readers of glTF and of a lab's folder call, by the browser's own JSON. A json_t is {type, refcount} in the module's
+ * memory, never freed: the worker that reads a file ends, and a page has one lab. An iterator is the key's text. */
 mergeInto(LibraryManager.library, {
     $Jansson__deps: ["malloc"],
     $Jansson: {
@@ -62,6 +62,8 @@ mergeInto(LibraryManager.library, {
     },
     json_object_get__deps: ["$Jansson"],
     json_object_get: function (object, key) { return Jansson.make(Jansson.member(Jansson.object(object), UTF8ToString(key))); },
+    json_object_size__deps: ["$Jansson"],
+    json_object_size: function (object) { return Object.keys(Jansson.object(object)).length; },
     json_object_iter__deps: ["$Jansson"],
     json_object_iter: function (object) { return Jansson.key(Jansson.object(object), 0); },
     json_object_key_to_iter: function (key) { return key; },
@@ -93,6 +95,10 @@ mergeInto(LibraryManager.library, {
     json_real_value: function (number) { return Number(Jansson.of(number)) || 0; },
     json_number_value__deps: ["$Jansson"],
     json_number_value: function (number) { return Number(Jansson.of(number)) || 0; },
+    json_string__deps: ["$Jansson"],
+    json_string: function (text) { return Jansson.make(UTF8ToString(text)); },
+    json_string_length__deps: ["$Jansson"],
+    json_string_length: function (text) { return lengthBytesUTF8(String(Jansson.of(text))); },
     json_string_value__deps: ["$Jansson"],
     json_string_value: function (text) {
         var value = Jansson.of(text);

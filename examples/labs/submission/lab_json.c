@@ -416,7 +416,8 @@ static bool add_solutions(Reading *reading)
         return read_solutions(reading, json_object_get(folder->json, "solutions"));
     if (stat(path, &status) != 0)
         return true;
-    json_t *list = json_pack("[s]", "solution");
+    json_t *list = json_array();
+    json_array_append_new(list, json_string("solution"));
     const bool done = read_solutions(reading, list);
     json_decref(list);
     return done;
@@ -426,7 +427,7 @@ bool lab_folder_open(LabFolder *folder, const char *path, Message *message)
 {
     enum { BYTES_MAX = 1 << 20 };
     char file[2 * PATH_MAX];
-    json_error_t error = {.line = 1};
+    json_error_t error;
     size_t size;
     Reading reading = {.folder = folder, .message = message};
     *folder = (LabFolder){.json = NULL};
