@@ -4,7 +4,7 @@
 usage: animation_test.py EXAMPLES_FOLDER_OF_THE_BUILD SOURCE_FOLDER [unittest's arguments]
 
 Reads formats with ffmpeg, and animated WebP with libwebpdemux, because ffmpeg does not. Signals
-arrive at random moments, from a printed seed (LIGHTING_SEED sets it). Exit code: 77 without a driver
+arrive at random moments, from a printed seed (LIGHTING_TEST_SEED sets it). Exit code: 77 without a driver
 or one of these tools.
 """
 import ctypes
@@ -29,7 +29,7 @@ PROGRAM = "PointLightedCube_animation"
 FILES = ("gif", "webp", "apng", "mp4", "webm")
 BY_FFMPEG = ("webp", "apng", "mp4", "webm")
 RATES = ("30", "29.97", "0.5", "1000")
-SEED = int(os.environ.get("LIGHTING_SEED", random.SystemRandom().randrange(10**6)))
+SEED = base.seed()
 
 
 def tool(*arguments, **more):
@@ -481,7 +481,6 @@ class Interrupted(Animations):
             self.assertEqual(len(decode(self.path(name), 3 * 48 * 48)), count, name)
 
     def test_ctrl_c_leaves_whole_files_alone(self):
-        print(f"LIGHTING_SEED={SEED}", file=sys.stderr)
         chance = random.Random(SEED)
         for name, count in (("a.gif", 12), ("a.mp4", 12), ("a%02d.png", 30), ("a.png", 1)):
             arguments = ("-s", "48x48", "-n", str(count), "-o", name)

@@ -15,6 +15,7 @@ import json
 import os
 import pty
 import pwd
+import random
 import re
 import shutil
 import signal
@@ -62,6 +63,14 @@ def step(number):
     which sets LIGHTING_TEST_LONG) all; AddressSanitizer, which needs code rather than cases, a quarter
     of the short one's."""
     return 1 if LONG else 4 * number if "ASAN_OPTIONS" in os.environ else number
+
+
+def seed():
+    """Of random cases, printed: the same in every short run, which only a change of the program may fail, and another in each
+    long one. LIGHTING_TEST_SEED replaces it."""
+    number = int(os.environ.get("LIGHTING_TEST_SEED", random.SystemRandom().randrange(1 << 30) if LONG else 1))
+    print(f"LIGHTING_TEST_SEED={number}", file=sys.stderr)
+    return number
 
 
 def terminal():

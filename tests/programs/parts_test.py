@@ -18,7 +18,7 @@ import unittest
 
 import command_line_test as base
 
-SEED = int(os.environ.get("LIGHTING_TEST_SEED", random.randrange(1 << 30)))
+SEED = base.seed()
 TURN = ("-s", "40x30", "-n", "12")
 SOME = ("LightedCube", "Materials", "NormalMatrix")
 

@@ -8,7 +8,6 @@ import copy
 import glob
 import json
 import math
-import os
 import random
 import re
 import struct
@@ -19,7 +18,7 @@ import command_line_test as base
 
 MODELS = "/usr/share/assimp/models*"  # of Debian's assimp-testmodels
 FORMATS = ("gltf", "glb", "dae", "zae", "fbx", "blend", "3ds", "obj", "ply", "stl", "x", "ase", "lwo", "off", "ac")
-SEED = int(os.environ.get("LIGHTING_TEST_SEED", random.SystemRandom().randrange(1 << 30)))
+SEED = base.seed()
 
 POSITIONS = (0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1)
 CORNERS = (0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3)
@@ -312,7 +311,8 @@ class Scene(base.Case):
         """A light that is left out changes no pixel by more than half a step: rounded to bytes, by one. Every second file lacks a
         face of each object. The others are closed, and a pixel or two at outlines show a back face, which is left out, too."""
         rules = set()
-        for case in range(100)[::base.step(25)]:
+        cases = range(100)[::base.step(25)]
+        for case in cases:
             file = self.lit_file(random.Random(SEED + case))
             is_open = case // base.step(25) % 2
             if is_open:
@@ -324,8 +324,8 @@ class Scene(base.Case):
             self.assertLessEqual(len(others), 0 if is_open else 4, (SEED + case, [(i % 160, i // 160) for i in others]))
             said = self.good(*arguments, "--explain", program="Scene").decode()
             rules.update(re.findall("beyond its range|its cone misses|too faint", said))
-        self.assertIn("beyond its range", rules)
-        self.assertIn("its cone misses", rules)
+        if len(cases) > 1:  # else the one may lack them
+            self.assertLessEqual({"beyond its range", "its cone misses"}, rules)
 
     def bad_files(self):
         """Name, file, what its message says."""
