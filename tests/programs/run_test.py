@@ -213,6 +213,12 @@ class Pages(Case):
         self.assertEqual(self.files("pages"), [".lighting", "index.html"])
         self.assertTrue(os.path.exists(self.path("mine.html")))
 
+    def test_nothing_is_linked_anew_while_it_draws_pages(self):
+        tool = self.read("bin/ninja").decode()
+        self.tool("ninja", f"case $2 in *-web) flock -n '{self.path('tree/build/.lock')}' true && exit 1 ;; esac\n{tool}")
+        self.web("pages", "index.html")
+        subprocess.run(["flock", "-n", self.path("tree/build/.lock"), "true"], check=True)
+
     def test_pages_that_cannot_be_written_leave_the_old_ones(self):
         self.web("pages", "index.html old.html")
         self.change("examples/run")
