@@ -3,6 +3,7 @@
 #include "base/output_text.h"
 #include "kinds/scene_views.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -75,17 +76,22 @@ static void print_reach(const LightingPlan *plan)
         static const char *const why[] = {"are beyond its range", "are missed by its cone",
                                           "turn away from it", "find it too faint"};
         int counts[4] = {0};
+        float most = 0;
         for (int i = 0; i < plan->object_count; i++) {
             const ObjectFacts *facts = &plan->objects[i].facts;
             counts[0] += (int)(facts->beyond_range >> light & 1);
             counts[1] += (int)(facts->missed >> light & 1);
             counts[2] += (int)(facts->behind >> light & 1);
             counts[3] += (int)(facts->faint >> light & 1);
+            most = fmaxf(most, facts->steps[light]);
         }
         for (int k = 0; k < 4; k++) {
             if (counts[k])
-                printf("light %d: %d of %d objects %s\n", light, counts[k], plan->object_count,
+                printf("light %d: %d of %d objects %s", light, counts[k], plan->object_count,
                        why[k]);
+            if (counts[k] && k == 3)
+                printf(": at most %.1f steps", ceil(10 * (double)most) / 10);
+            fputs(counts[k] ? "\n" : "", stdout);
             any |= counts[k] > 0;
         }
     }

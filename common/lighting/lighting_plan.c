@@ -189,10 +189,11 @@ static bool plan_objects(LightingPlan *plan, const LightingFrame *frame, bool an
         ObjectFacts facts = effects_object(&view, object, &planned->place, plan->pairs.receives[i]);
         if (plan->lighting->normal_matrix) /* wrong normals turn anywhere */
             facts.behind = 0;
-        if (!changed && planned->variant && memcmp(&facts, &planned->facts, sizeof facts) == 0)
+        const bool same = memcmp(&facts, &planned->facts, OBJECT_FACTS_DECIDE) == 0;
+        planned->facts = facts;
+        if (!changed && planned->variant && same)
             continue;
         Message why = {.located = false};
-        planned->facts = facts;
         if (!unbuilt && !find_means(plan, object, i, &why))
             return object_failed(i, &why, message);
     }

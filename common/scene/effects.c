@@ -8,6 +8,7 @@
 #include "shadows/shadow_mask.h"
 
 #include <assert.h>
+#include <math.h>
 #include <stdarg.h>
 #include <string.h>
 
@@ -149,8 +150,8 @@ static bool decide_terms(const Decision *made, int number, LightTerms *terms)
     }
     if (object->faint >> number & 1) {
         say(made->why,
-            "without light %d: too faint: with all that are it adds less than half a step of 1/255",
-            number);
+            "without light %d: too faint: at most %.1f steps of 1/255, with all that are less than half",
+            number, ceil(10 * (double)object->steps[number]) / 10);
         return false;
     }
     if (!reflected_terms(made, number, terms)) {

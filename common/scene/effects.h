@@ -12,6 +12,7 @@
 
 #include "scene/scene.h"
 
+#include <stddef.h>
 #include <stdio.h>
 
 enum { EFFECTS_MAX_LIGHTS = 32 };
@@ -101,7 +102,11 @@ typedef struct ObjectFacts {
     uint8_t transform; /* of normals: an EffectsTransform */
     uint8_t beyond;    /* the near plane does not cut it */
     uint8_t unused[2]; /* instead of padding */
+    /* Decides nothing: of each light that is faint, how much it adds to a pixel at most, in steps
+     * of 1/255. */
+    float steps[EFFECTS_MAX_LIGHTS];
 } ObjectFacts;
+enum { OBJECT_FACTS_DECIDE = offsetof(ObjectFacts, steps) }; /* so many bytes */
 
 SceneFacts effects_scene(const Scene *scene);
 

@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-static_assert(sizeof(ObjectFacts) == 6 * 4 + 2 * sizeof(SideFacts) + 10, "no padding");
+static_assert(OBJECT_FACTS_DECIDE == 6 * 4 + 2 * sizeof(SideFacts) + 10, "no padding");
 static_assert(sizeof(SceneFacts) == EFFECTS_MAX_LIGHTS * sizeof(LightFacts) + 11, "no padding");
 
 static uint8_t channels_of(Vec3 color)
@@ -240,13 +240,13 @@ static bool is_behind(const EffectsView *view, const Light *light, const Effects
  * step near black up to 12.92 steps (IEC 61966-2-1). Where a colour above 1 is highlighted, any
  * light may decide. */
 static uint32_t faint_lights(const EffectsView *view, const Object *object, Sphere sphere,
-                             uint32_t lights)
+                             uint32_t lights, float steps[EFFECTS_MAX_LIGHTS])
 {
     static const double ROUNDING = 1.001;
     const Scene *scene = view->scene;
     const Material sides[2] = {effects_material(object, false), effects_material(object, true)};
-    double left = 0.5 / 255 / (scene->linear ? 12.92 : 1), adds[EFFECTS_MAX_LIGHTS];
-    double reflects[3];
+    const double step = 1.0 / 255 / (scene->linear ? 12.92 : 1);
+    double left = step / 2, adds[EFFECTS_MAX_LIGHTS], reflects[3];
     uint32_t faint = 0, candidates = 0;
     if (scene->show_clipped || object->mesh->lit_positions)
         return 0;
@@ -270,6 +270,7 @@ static uint32_t faint_lights(const EffectsView *view, const Object *object, Sphe
         if (left < 0)
             break;
         faint |= (uint32_t)1 << least;
+        steps[least] = (float)(adds[least] / step);
         candidates &= ~((uint32_t)1 << least);
     }
     return faint;
@@ -313,8 +314,9 @@ ObjectFacts effects_object(const EffectsView *view, const Object *object, const 
     for (uint32_t left = one_side ? view->on : 0; left; left &= left - 1)
         if (is_behind(view, &view->lights[__builtin_ctz(left)], place))
             facts.behind |= left & -left;
-    facts.faint = faint_lights(view, object, place->sphere,
-                               view->on & ~(facts.missed | facts.beyond_range | facts.behind));
+    facts.faint =
+        faint_lights(view, object, place->sphere,
+                     view->on & ~(facts.missed | facts.beyond_range | facts.behind), facts.steps);
     return facts;
 }
 

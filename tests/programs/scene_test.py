@@ -263,15 +263,18 @@ class Scene(base.Case):
         nodes += [{"translation": [i, 1, 1], "extensions": {"KHR_lights_punctual": {"light": 0}}} for i in (0, 39)]
         nodes.append({"translation": [20, 2, 0.5], "rotation": [-math.sqrt(0.5), 0, 0, math.sqrt(0.5)],
                       "extensions": {"KHR_lights_punctual": {"light": 1}}})
-        lights = [{"type": "point", "intensity": 9, "range": 5}, {"type": "spot", "intensity": 9}]
+        nodes.append({"extensions": {"KHR_lights_punctual": {"light": 2}}})
+        lights = [{"type": "point", "intensity": 9, "range": 5}, {"type": "spot", "intensity": 9},
+                  {"type": "directional", "intensity": 3e-4}]
         material = {"pbrMetallicRoughness": {"metallicFactor": 0}}
-        self.save("a.gltf", tetrahedron(nodes=nodes, scenes=[{"nodes": list(range(43))}], materials=[material],
+        self.save("a.gltf", tetrahedron(nodes=nodes, scenes=[{"nodes": list(range(44))}], materials=[material],
                                         meshes=[{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
                                         extensions={"KHR_lights_punctual": {"lights": lights}}))
         said = self.good("a.gltf", "--explain", program="Scene").decode()
         for light in (0, 1):
             self.assertRegex(said, rf"light {light}: 3[3-5] of 40 objects are beyond its range")
         self.assertRegex(said, r"light 2: 3\d of 40 objects are missed by its cone")
+        self.assertRegex(said, r"light 3: 40 of 40 objects find it too faint: at most 0\.[1-5] steps\n")
         self.assertRegex(said, r"\d+ of 40 objects, first object \d+: no light")
         self.assertRegex(said, r"1 point light \(diffuse,\s+specular,\s+attenuation,\s+range\)")
         pictures = [self.drawn("a.gltf", "-s", "300x300", *full, program="Scene").pixels for full in ((), ("--full",))]
@@ -323,7 +326,7 @@ class Scene(base.Case):
             others = {i // 3 for i in range(len(some)) if abs(some[i] - every[i]) > 1}
             self.assertLessEqual(len(others), 0 if is_open else 4, (SEED + case, [(i % 160, i // 160) for i in others]))
             said = self.good(*arguments, "--explain", program="Scene").decode()
-            rules.update(re.findall("beyond its range|its cone misses|too faint", said))
+            rules.update(re.findall(r"beyond its range|its cone misses|too faint: at most 0\.[1-5] steps", said))
         if len(cases) > 1:  # else the one may lack them
             self.assertLessEqual({"beyond its range", "its cone misses"}, rules)
 
