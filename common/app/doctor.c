@@ -49,20 +49,6 @@ void doctor_keep(const Canvas *canvas, const char *line)
     cache_write("precision", &key, &kept, sizeof kept);
 }
 
-static void print_kept(const char *backend, const char *findings)
-{
-    const CacheKey key = kept_key(backend);
-    size_t size = 0;
-    Kept *kept = cache_read("precision", &key, &size);
-    if (kept && size == sizeof *kept && memchr(kept->line, 0, sizeof kept->line) &&
-        memchr(kept->renderer, 0, sizeof kept->renderer) && strstr(findings, kept->renderer) &&
-        memchr(kept->version, 0, sizeof kept->version) && strstr(findings, kept->version))
-        printf("  %-16s %s\n", "precision", kept->line);
-    else
-        printf("  %-16s unknown: run precision once\n", "precision");
-    free(kept);
-}
-
 static bool png_probe(Message *findings)
 {
     return package_tell(findings, "libpng", image_png_version(), "PNG files", NULL);
@@ -96,7 +82,17 @@ int doctor_run(void)
         printf("%s: %s\n", BACKENDS[i]->name, BACKENDS[i]->summary);
         if (!print_findings(canvas_backend_load(BACKENDS[i])->probe, &findings))
             continue;
-        print_kept(BACKENDS[i]->name, findings.text);
+        const CacheKey key = kept_key(BACKENDS[i]->name);
+        size_t size = 0;
+        Kept *kept = cache_read("precision", &key, &size);
+        if (kept && size == sizeof *kept && memchr(kept->line, 0, sizeof kept->line) &&
+            memchr(kept->renderer, 0, sizeof kept->renderer) &&
+            strstr(findings.text, kept->renderer) &&
+            memchr(kept->version, 0, sizeof kept->version) && strstr(findings.text, kept->version))
+            printf("  %-16s %s\n", "precision", kept->line);
+        else
+            printf("  %-16s unknown: run precision once\n", "precision");
+        free(kept);
         if (!works || BACKENDS[i] == usual)
             works = BACKENDS[i];
     }

@@ -3,7 +3,6 @@
 #include "app/frames.h"
 
 #include "app/picture_texts.h"
-#include "base/output.h"
 #include "window/backends.h"
 
 #include <errno.h>

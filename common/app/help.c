@@ -17,11 +17,6 @@
 
 enum { WIDTH = 88, INDENT = 25, TEXT_SIZE = 1024, DETAILS_SIZE = 8192 };
 
-static bool takes_file(const Parameter *option)
-{
-    return option->kind == PARAMETER_TEXT && !option->choices && !option->codec;
-}
-
 /* "egl|osmesa|window"; "" without choices. */
 static const char *join_choices(const Parameter *option, const char *bar, char text[TEXT_SIZE])
 {
@@ -182,7 +177,7 @@ static void set_option(TemplateValues *form, const Parameter *option)
     template_set(values, "words", "%s", flag ? "" : choices);
     set_flag(values, "flag", flag);
     set_flag(values, "takes", !flag || choices[0]);
-    set_flag(values, "file", takes_file(option));
+    set_flag(values, "file", option->kind == PARAMETER_TEXT && !option->choices && !option->codec);
 }
 
 void help_generate(const char *form, const Usage *usage, const Parameter *table)

@@ -2,7 +2,6 @@
 #include "app/run_more.h"
 
 #include "app/frames.h"
-#include "app/options.h"
 #include "app/probing.h"
 #include "app/shader_reload.h"
 #include "app/viewer.h"

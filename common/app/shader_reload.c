@@ -2,7 +2,6 @@
  * read before is opened again from memory, whatever is on disk by then. */
 #include "app/shader_reload.h"
 
-#include "base/clock.h"
 #include "base/memory.h"
 
 #include <stdio.h>

@@ -242,16 +242,6 @@ static void add_light(ViewerPanel *panel, int number, const Light *light, const 
     panel->lights[2 * number + 2].name = NULL;
 }
 
-/* The lights as the example has them, and their colors as the options do. */
-static void find_lights(ViewerPanel *panel, Renderer *renderer, const DrawRequest *request)
-{
-    Light lights[SCENE_MAX_PLACED];
-    const int count = panel->kind->lights(renderer, request, lights);
-    for (int i = 0; i < count; i++)
-        add_light(panel, i, &lights[i], &request->tints);
-    panel->lights[2 * count].name = NULL;
-}
-
 const Handle *viewer_panel_find_handle(const ViewerPanel *panel, double x, double y, double reach)
 {
     return panel->handle_count
@@ -276,22 +266,6 @@ bool viewer_panel_tint(const ViewerPanel *panel, LightTints *tints)
     return panel->result.lights != 0;
 }
 
-/* The handles in the window. */
-static void mark(const ViewerPanel *panel, const WindowInput *input, const Handle *held,
-                 PanelMark marks[HANDLES_MAX])
-{
-    int place[4];
-    viewer_panel_place(panel, input, place);
-    for (int i = 0; i < panel->handle_count; i++) {
-        const Handle *handle = &panel->handles[i];
-        marks[i] =
-            (PanelMark){.number = handle->light,
-                        .x = handle->x,
-                        .y = handle->y + place[1],
-                        .held = held && handle->light == held->light && handle->view == held->view};
-    }
-}
-
 /* What the panel shows of the picture. */
 static void update(ViewerPanel *panel, Renderer *renderer, const Options *options)
 {
@@ -300,7 +274,12 @@ static void update(ViewerPanel *panel, Renderer *renderer, const Options *option
         update_error(panel, renderer, &request);
         update_effects(panel, renderer, &request);
         panel->handle_count = panel->kind->handles(renderer, &request, panel->handles);
-        find_lights(panel, renderer, &request);
+        /* The lights as the example has them, and their colors as the options do. */
+        Light lights[SCENE_MAX_PLACED];
+        const int count = panel->kind->lights(renderer, &request, lights);
+        for (int i = 0; i < count; i++)
+            add_light(panel, i, &lights[i], &request.tints);
+        panel->lights[2 * count].name = NULL;
     }
     command_write(panel->example, options, panel->defaults, panel->command, sizeof panel->command);
 }
@@ -347,7 +326,17 @@ bool viewer_panel_frame(ViewerPanel *panel, const ViewerPanelInput *input, Messa
     WindowInput own = *input->window;
     own.scale = scale_of(panel, input->window);
     panel->noticed = has_notice(panel);
-    mark(panel, input->window, input->held, marks);
+    /* The handles in the window. */
+    int place[4];
+    viewer_panel_place(panel, input->window, place);
+    for (int i = 0; i < panel->handle_count; i++) {
+        const Handle *handle = &panel->handles[i];
+        marks[i] = (PanelMark){.number = handle->light,
+                               .x = handle->x,
+                               .y = handle->y + place[1],
+                               .held = input->held && handle->light == input->held->light &&
+                                       handle->view == input->held->view};
+    }
     const PanelInput in = {.window = &own,
                            .seconds = input->seconds,
                            .clipboard = panel->window,

@@ -5,9 +5,7 @@
 #include "choose/cheapest_quality.h"
 
 #include "base/memory.h"
-#include "choose/cheapest_search.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -405,14 +405,6 @@ static bool join(Search *search, const ObjectQuality *plain, Message *message)
     }
 }
 
-static void forget(Search *search)
-{
-    for (int i = 0; i < search->count; i++) {
-        search->found[i].has_kept = false;
-        search->found[i].best_error = search->found[i].best_cost = INFINITY;
-    }
-}
-
 static size_t most_more(const Search *search)
 {
     double inside = 0;
@@ -428,7 +420,10 @@ static bool search_once(Search *search, CheapestQuality *cheapest, Message *mess
     if (!task->scene(task->data, 0, &search->scene, message))
         return false;
     const ObjectQuality plain = object_quality_plain(&search->scene);
-    forget(search);
+    for (int i = 0; i < search->count; i++) {
+        search->found[i].has_kept = false;
+        search->found[i].best_error = search->found[i].best_cost = INFINITY;
+    }
     for (int i = 0; i < search->count; i++)
         search->current[i] = plain;
     if (!evaluate(search, message))

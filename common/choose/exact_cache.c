@@ -52,21 +52,6 @@ static bool set_block(Exact *exact, uint16_t *block, size_t pixels, bool casts, 
     return true;
 }
 
-static void exact_fill(Exact *exact, const Reference *reference, size_t pixels)
-{
-    for (size_t i = 0; i < pixels; i++) {
-        for (size_t k = 0; k < 3; k++)
-            exact->colors[3 * i + k] =
-                (uint16_t)lround(65535 * (double)reference->color[3 * i + k]);
-        exact->seen[i] = (int16_t)reference->object[i];
-        exact->owner[i] = reference->interior[i]                                 ? exact->seen[i]
-                          : exact->seen[i] < 0 && reference->coverage[i] >= 1.0F ? -2
-                                                                                 : -1;
-    }
-    if (exact->lights)
-        memcpy(exact->lights, reference->lights, pixels * sizeof *exact->lights);
-}
-
 bool exact_open(Exact *exact, const Scene *scene, const int area[2], Progress *progress,
                 Message *message)
 {
@@ -90,7 +75,16 @@ bool exact_open(Exact *exact, const Scene *scene, const int area[2], Progress *p
         exact_close(exact);
         return false;
     }
-    exact_fill(exact, &reference, pixels);
+    for (size_t i = 0; i < pixels; i++) {
+        for (size_t k = 0; k < 3; k++)
+            exact->colors[3 * i + k] = (uint16_t)lround(65535 * (double)reference.color[3 * i + k]);
+        exact->seen[i] = (int16_t)reference.object[i];
+        exact->owner[i] = reference.interior[i]                                 ? exact->seen[i]
+                          : exact->seen[i] < 0 && reference.coverage[i] >= 1.0F ? -2
+                                                                                : -1;
+    }
+    if (exact->lights)
+        memcpy(exact->lights, reference.lights, pixels * sizeof *exact->lights);
     reference_close(&reference);
     cache_write("exact", &key, exact->colors, size);
     return true;

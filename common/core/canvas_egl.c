@@ -11,7 +11,6 @@
 #include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <sys/resource.h>
 
 #define EGL_EGL_PROTOTYPES 0

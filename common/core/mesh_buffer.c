@@ -123,19 +123,14 @@ static void point_attribute(GLint location, size_t stride, size_t offset)
                           (const void *)offset);
 }
 
-/* One left enabled by another program may point to a buffer that is gone, and WebGL then draws
- * nothing. OpenGL ES 2 has at least 8. */
-static void disable_others(GLint position, GLint normal)
+void mesh_buffer_bind(const MeshBuffer *buffer, GLint position, GLint normal)
 {
+    /* One left enabled by another program may point to a buffer that is gone, and WebGL then draws
+     * nothing. OpenGL ES 2 has at least 8. */
     enum { ATTRIBUTES = 8 };
     for (GLint i = 0; i < ATTRIBUTES; i++)
         if (i != position && i != normal)
             glDisableVertexAttribArray((GLuint)i);
-}
-
-void mesh_buffer_bind(const MeshBuffer *buffer, GLint position, GLint normal)
-{
-    disable_others(position, normal);
     glBindBuffer(GL_ARRAY_BUFFER, buffer->vertices);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer->indices);
     point_attribute(position, sizeof(MeshVertex), offsetof(MeshVertex, position));

@@ -5,7 +5,6 @@
 
 #include "base/clock.h"
 #include "base/text.h"
-#include "core/shader_source.h"
 #include "core/shader_binary.h"
 
 #include <ctype.h>

@@ -18,8 +18,6 @@
 #include "core/shader_files.h"
 
 #include <ctype.h>
-#include <limits.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -169,23 +167,6 @@ static const char *replacement(const ShaderLoader *loader, const char *name)
     return name;
 }
 
-/* Looks beside the file `from`, unless that is NULL, and where all shaders are. */
-static void search_folders(Search *search, const ShaderLoader *loader, const char *name,
-                           const char *from)
-{
-    const char *slash = from ? strrchr(from, '/') : NULL, *last = strrchr(name, '/');
-    const bool absolute = name[0] == '/';
-    Place places[MAX_PLACES];
-    const int count = absolute ? 0 : find_places(loader, places);
-    if (from || absolute)
-        try_path(search, from ? from : "", slash && !absolute ? (int)(slash - from) + 1 : 0, name);
-    for (int i = 0; i < count; i++) {
-        try_path(search, places[i].folder, PATH_MAX, name);
-        if (places[i].by_name && last)
-            try_path(search, places[i].folder, PATH_MAX, last + 1);
-    }
-}
-
 /* Finds and reads `name`, first in memory. */
 static bool find_file(Search *search, const ShaderLoader *loader, const char *name,
                       const char *from, Message *message)
@@ -201,7 +182,18 @@ static bool find_file(Search *search, const ShaderLoader *loader, const char *na
     }
     if (loader->only_texts)
         return message_set(message, "%s: no such file beside it", name);
-    search_folders(search, loader, name, from);
+    /* Looks beside the file `from`, unless that is NULL, and where all shaders are. */
+    const char *slash = from ? strrchr(from, '/') : NULL, *last = strrchr(name, '/');
+    const bool absolute = name[0] == '/';
+    Place places[MAX_PLACES];
+    const int count = absolute ? 0 : find_places(loader, places);
+    if (from || absolute)
+        try_path(search, from ? from : "", slash && !absolute ? (int)(slash - from) + 1 : 0, name);
+    for (int i = 0; i < count; i++) {
+        try_path(search, places[i].folder, PATH_MAX, name);
+        if (places[i].by_name && last)
+            try_path(search, places[i].folder, PATH_MAX, last + 1);
+    }
     if (search->problem.text[0])
         return message_set(message, "%s", search->problem.text);
     return search->text || message_set(message, "%s: no such shader file%s", name, search->tried);

@@ -258,13 +258,6 @@ static void no_match(Parser *parser, int node, int name, const Arguments *argume
              arguments->count ? "" : "there are no arguments", said.text);
 }
 
-static void check_outputs(Parser *parser, const GlslSymbol *function, const Arguments *arguments)
-{
-    for (int i = 0; i < function->parameters; i++)
-        if (parser->tree->symbols[function->parameter + i].storage >= GLSL_OUT)
-            check_writable(parser, arguments->nodes[i]);
-}
-
 static int find_function(const GlslTree *tree, int symbol, const Arguments *arguments)
 {
     for (; symbol; symbol = tree->symbols[symbol].overload) {
@@ -316,7 +309,9 @@ void check_call(Parser *parser, int node, int name)
         call->symbol = function;
         settle_call(parser, node, tree->symbols[function].type, false);
         node_at(parser, node)->precision = tree->symbols[function].precision;
-        check_outputs(parser, &tree->symbols[function], &arguments);
+        for (int i = 0; i < tree->symbols[function].parameters; i++)
+            if (parser->tree->symbols[tree->symbols[function].parameter + i].storage >= GLSL_OUT)
+                check_writable(parser, arguments.nodes[i]);
     } else if (built_in) {
         const GlslFunction *found = &GLSL_FUNCTIONS[built_in - 1];
         call->kind = GLSL_BUILT_IN;

@@ -1,8 +1,6 @@
 /* Types of operators, and what to write where they do not fit. */
 #include "glsl/glsl_parser.h"
 
-#include "base/text.h"
-
 #include <stdio.h>
 #include <string.h>
 

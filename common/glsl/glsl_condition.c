@@ -1,8 +1,6 @@
 /* The expressions of #if: integers, by precedence. */
 #include "glsl/glsl_preprocess.h"
 
-#include <stdlib.h>
-
 enum { DEEPEST = 100, UNARY = 11 };
 
 static long long value_of(Condition *condition, int precedence);

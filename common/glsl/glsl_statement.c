@@ -122,14 +122,6 @@ static void parse_return(Parser *parser, List *list, GlslPlace place)
                  empty ? "" : conversion(parser, node, function->type).text);
 }
 
-static void check_jump(Parser *parser, int kind, GlslPlace place)
-{
-    if ((kind == GLSL_BREAK || kind == GLSL_CONTINUE) && !parser->loops)
-        complain(parser, place, "break and continue belong into a loop");
-    if (kind == GLSL_DISCARD && parser->tree->stage == GLSL_VERTEX)
-        complain(parser, place, "only a fragment shader can discard");
-}
-
 int parse_block(Parser *parser)
 {
     const int node = node_new(parser, GLSL_BLOCK, GLSL_VOID, peek(parser, 0)->place);
@@ -176,7 +168,10 @@ static int parse_keyword(Parser *parser)
     } else if (kind == GLSL_RETURN) {
         parse_return(parser, &list, place);
     } else {
-        check_jump(parser, kind, place);
+        if ((kind == GLSL_BREAK || kind == GLSL_CONTINUE) && !parser->loops)
+            complain(parser, place, "break and continue belong into a loop");
+        if (kind == GLSL_DISCARD && parser->tree->stage == GLSL_VERTEX)
+            complain(parser, place, "only a fragment shader can discard");
         expect(parser, ';', "a semicolon");
     }
     set_children(parser, node, list);

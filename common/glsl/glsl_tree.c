@@ -256,14 +256,6 @@ void syntax_error(Parser *parser, const char *format, ...)
     parser->stopped = true;
 }
 
-static void set_precisions(Parser *parser)
-{
-    const bool vertex = parser->tree->stage == GLSL_VERTEX;
-    parser->precisions[GLSL_FLOAT] = vertex ? GLSL_HIGHP : GLSL_NO_PRECISION;
-    parser->precisions[GLSL_INT] = vertex ? GLSL_HIGHP : GLSL_MEDIUMP;
-    parser->precisions[GLSL_SAMPLER_2D] = parser->precisions[GLSL_SAMPLER_CUBE] = GLSL_LOWP;
-}
-
 GlslTree *glsl_parse(const char *text, GlslStage stage, const GlslLimits *limits)
 {
     GlslTree *tree = memory_new(1, sizeof *tree);
@@ -281,7 +273,10 @@ GlslTree *glsl_parse(const char *text, GlslStage stage, const GlslLimits *limits
     add_types(&parser);
     parser.broken = !preprocess(tree, &parser.names, text, &parser.tokens, &message);
     declare_built_ins(&parser);
-    set_precisions(&parser);
+    const bool vertex = parser.tree->stage == GLSL_VERTEX;
+    parser.precisions[GLSL_FLOAT] = vertex ? GLSL_HIGHP : GLSL_NO_PRECISION;
+    parser.precisions[GLSL_INT] = vertex ? GLSL_HIGHP : GLSL_MEDIUMP;
+    parser.precisions[GLSL_SAMPLER_2D] = parser.precisions[GLSL_SAMPLER_CUBE] = GLSL_LOWP;
     tree->root = parse_unit(&parser);
     parser.stopped &= !parser.cut;
     if (parser.broken)

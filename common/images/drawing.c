@@ -11,7 +11,6 @@
 #include "base/memory.h"
 #include "base/output.h"
 #include "base/plugin.h"
-#include "images/drawing_list.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -6,7 +6,6 @@
 
 #include "base/output.h"
 #include "images/image_plugin.h"
-#include "images/image_options.h"
 
 #include <ctype.h>
 #include <errno.h>

@@ -41,16 +41,6 @@ static void read_texts(png_structp png, png_infop info, Picture *picture)
     }
 }
 
-/* Rows are read as RGBA, 8 bits each. */
-static void ask_for_bytes(png_structp png, png_infop info)
-{
-    png_set_expand(png);
-    png_set_strip_16(png);
-    png_set_gray_to_rgb(png);
-    png_set_filler(png, 255, PNG_FILLER_AFTER);
-    png_read_update_info(png, info);
-}
-
 static bool fit_image(Image *image, int width, int height, Message *message)
 {
     if (image->width == width && image->height == height && image->type == IMAGE_BYTE)
@@ -70,7 +60,12 @@ static bool read_png(Picture *picture, FILE *stream, Message *message)
     png_init_io(png, stream);
     png_read_info(png, info);
     picture->alpha = png_get_color_type(png, info) & PNG_COLOR_MASK_ALPHA;
-    ask_for_bytes(png, info);
+    /* Rows are read as RGBA, 8 bits each. */
+    png_set_expand(png);
+    png_set_strip_16(png);
+    png_set_gray_to_rgb(png);
+    png_set_filler(png, 255, PNG_FILLER_AFTER);
+    png_read_update_info(png, info);
     if (!fit_image(&picture->image, (int)png_get_image_width(png, info),
                    (int)png_get_image_height(png, info), message))
         goto end;

@@ -1,6 +1,5 @@
 /* Programs that compose a figure of lines and text, which cairo paints; no OpenGL. */
 #include "app/options_table.h"
-#include "app/renderer.h"
 #include "images/drawing.h"
 #include "kinds/ineffective_options.h"
 #include "scene/scene_example.h"

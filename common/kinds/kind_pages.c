@@ -1,6 +1,5 @@
 /* Programs of pages, painted from text and from what is drawn beside them. */
 #include "app/options_table.h"
-#include "app/renderer.h"
 #include "scene/scene_example.h"
 
 static void describe(const Example *example, Usage *usage)

@@ -209,16 +209,6 @@ void scene_key(CacheKey *key, const Scene *scene, bool alpha)
         add_object(key, &scene->objects[i], light_terms(scene), alpha);
 }
 
-static void add_marks(CacheKey *key, Annotations *marks)
-{
-    OverlayList *lists[] = {&marks->lines, &marks->points};
-    for (int i = 0; i < 2; i++) {
-        cache_key_add(key, lists[i]->vertices,
-                      (size_t)lists[i]->count * sizeof *lists[i]->vertices);
-        overlay_list_close(lists[i]);
-    }
-}
-
 static void add_view(CacheKey *key, const Example *example, const Options *options, double seconds,
                      int view)
 {
@@ -232,7 +222,12 @@ static void add_view(CacheKey *key, const Example *example, const Options *optio
     scene_key(key, &kept.scene, options->alpha);
     if (own->annotate)
         own->annotate(seconds, view, &kept.scene, &marks);
-    add_marks(key, &marks);
+    OverlayList *lists[] = {&marks.lines, &marks.points};
+    for (int i = 0; i < 2; i++) {
+        cache_key_add(key, lists[i]->vertices,
+                      (size_t)lists[i]->count * sizeof *lists[i]->vertices);
+        overlay_list_close(lists[i]);
+    }
     const char *label = own->label ? own->label(view) : NULL;
     cache_key_add(key, label ? label : "", label ? strlen(label) : 0);
     scene_copy_close(&kept);

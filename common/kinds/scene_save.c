@@ -13,7 +13,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 static const double PI = 3.141592653589793, RADIANS = 0.017453292519943295;
 

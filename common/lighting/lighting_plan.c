@@ -34,17 +34,6 @@ static void open_objects(LightingPlan *plan, int count)
     plan->object_count = count;
 }
 
-static void open_lights(LightingPlan *plan, int count)
-{
-    if (count > plan->light_capacity) {
-        plan->lights = memory_grow(plan->lights, (size_t)count, sizeof *plan->lights);
-        plan->light_capacity = count;
-    }
-    for (int i = plan->light_count; i < count; i++)
-        memset(&plan->lights[i], 0, sizeof plan->lights[i]);
-    plan->light_count = count;
-}
-
 /* Keeps what the last frame left, unless that was of another kind. */
 static bool open_plan(LightingPlan *plan, Lighting *lighting, const LightingFrame *frame,
                       Message *message)
@@ -59,7 +48,13 @@ static bool open_plan(LightingPlan *plan, Lighting *lighting, const LightingFram
     plan->full = frame->full;
     plan->in_parts = frame->parts != NULL;
     open_objects(plan, scene->object_count);
-    open_lights(plan, scene->light_count);
+    if (scene->light_count > plan->light_capacity) {
+        plan->lights = memory_grow(plan->lights, (size_t)scene->light_count, sizeof *plan->lights);
+        plan->light_capacity = scene->light_count;
+    }
+    for (int i = plan->light_count; i < scene->light_count; i++)
+        memset(&plan->lights[i], 0, sizeof plan->lights[i]);
+    plan->light_count = scene->light_count;
     return shadow_pairs_open(&plan->pairs, scene->object_count, message);
 }
 

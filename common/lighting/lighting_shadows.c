@@ -6,8 +6,6 @@
  */
 #include "lighting/lighting_shadows.h"
 
-#include "lighting/lighting_state.h"
-
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

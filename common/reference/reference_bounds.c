@@ -142,14 +142,6 @@ static void separate(BoundsItem *items, const Part *whole, int depth, Part parts
     }
 }
 
-static void put_box(BoundsNode *node, int child, const Box *box)
-{
-    for (int k = 0; k < 3; k++) {
-        node->sides[0][k][child] = box->low[k];
-        node->sides[1][k][child] = box->high[k];
-    }
-}
-
 /* A node to be made of the items from number `first` on, with nodes below it from number `next` on;
  * there are fewer than items. */
 typedef struct Branch {
@@ -197,7 +189,10 @@ static void *build(void *argument)
     Part parts[BOUNDS_WIDTH];
     divide(branch, parts);
     for (int i = 0; i < BOUNDS_WIDTH; first += parts[i++].count) {
-        put_box(node, i, &parts[i].box);
+        for (int k = 0; k < 3; k++) {
+            node->sides[0][k][i] = parts[i].box.low[k];
+            node->sides[1][k][i] = parts[i].box.high[k];
+        }
         node->children[i] = (BoundsChild){first, parts[i].count};
         if (parts[i].count <= LEAF || stop_asked(branch->stop))
             continue;

@@ -280,15 +280,6 @@ static bool add_parted(Work *work, const Square *square, double difference)
 
 /* Squares. */
 
-/* By Simpson's rule, as far as four corners have it: right for colors that bend like parabolas. */
-static void add_smooth(Work *work, const Square *square)
-{
-    const double area = square->side * square->side;
-    add(work, square->center, area * 2 / 3);
-    for (int i = 0; i < 4; i++)
-        add(work, square->corners[i], area / 12);
-}
-
 static void add_unresolved(Work *work, const Square *square)
 {
     const double area = square->side * square->side;
@@ -320,7 +311,12 @@ static void add_square(Work *work, const Square *square)
          * mean. */
         if (square->side * square->side < work->error ||
             bend(square->center, square->corners, 4) <= 2 * work->error) {
-            add_smooth(work, square);
+            /* By Simpson's rule, as far as four corners have it: right for colors that bend like
+             * parabolas. */
+            const double area = square->side * square->side;
+            add(work, square->center, area * 2 / 3);
+            for (int i = 0; i < 4; i++)
+                add(work, square->corners[i], area / 12);
             return;
         }
     } else if (small) {

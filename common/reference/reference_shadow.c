@@ -107,11 +107,6 @@ ShadowPoint shadow_start_triangle(const Shadows *shadows, int object, uint32_t t
     return point;
 }
 
-static bool is_plane(const Solid *solid)
-{
-    return solid->kind == SOLID_QUAD || solid->kind == SOLID_DISC;
-}
-
 /* Whether both ends of a segment surely lie on the same side of a plane. */
 static bool beside_plane(const TraceObject *ready, const ShadowPoint *point, Real3 way,
                          bool endless)
@@ -130,7 +125,7 @@ static bool solid_between(const ShadowPoint *point, int number, int light, Real3
     const Shadows *shadows = point->shadows;
     const TraceObject *ready = &shadows->objects[number];
     const bool endless = shadows->lights[light].light->kind == LIGHT_DIRECTIONAL;
-    if (is_plane(&ready->object->solid) &&
+    if ((ready->object->solid.kind == SOLID_QUAD || ready->object->solid.kind == SOLID_DISC) &&
         (number == point->object || beside_plane(ready, point, way, endless)))
         return false;
     const ShadowEnd *end = &shadows->ends[number * shadows->light_count + light];

@@ -286,11 +286,6 @@ Real3 solid_normal(const Solid *solid, int part, Real3 p)
 
 /* Shadows. */
 
-static Real clamp_to(Real value, Real low, Real high)
-{
-    return real_max(low, real_min(value, high));
-}
-
 Real3 solid_project(const Solid *solid, int part, Real3 p)
 {
     const Real radius = solid->radius, height = solid->height;
@@ -312,7 +307,7 @@ Real3 solid_project(const Solid *solid, int part, Real3 p)
     if (part == PART_TOP)
         return (Real3){p.x, p.y, height};
     /* The side of a cylinder or cone at the same height. */
-    const Real z = clamp_to(p.z, 0, height);
+    const Real z = real_max(0, real_min(p.z, height));
     const Real wanted = solid->kind == SOLID_CONE ? radius * (height - z) / height : radius;
     const Real factor = across > 0 ? wanted / across : 0;
     return (Real3){p.x * factor, p.y * factor, z};

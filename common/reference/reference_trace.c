@@ -45,17 +45,6 @@ static Real3 turn_to_world(Real3 v, Mat4 eye_from_world)
     return real3_along(real3_along(real3_scale(right, v.x), v.y, up), v.z, back);
 }
 
-static void set_camera(Trace *trace, const Camera *camera, Mat4 eye_from_world, int width,
-                       int height)
-{
-    const Real tangent = real_tan(scene_fovy(camera, (double)width / height) * (REAL_PI / 360));
-    const Real aspect = (Real)width / height;
-    trace->across = turn_to_world((Real3){2 * tangent * aspect / width, 0, 0}, eye_from_world);
-    trace->down = turn_to_world((Real3){0, -2 * tangent / height, 0}, eye_from_world);
-    trace->corner = turn_to_world((Real3){-tangent * aspect, tangent, -1}, eye_from_world);
-    trace->shading.view = turn_to_world((Real3){0, 0, 1}, eye_from_world);
-}
-
 static ShadeLight prepare_light(const Light *light, Vec3 eye, Mat4 eye_from_world)
 {
     ShadeLight ready = {.light = light};
@@ -160,7 +149,13 @@ bool trace_open(Trace **opened, const Scene *scene, const ReferenceOptions *opti
     trace->shading.reflection_phong = scene->reflection == REFLECTION_PHONG;
     trace->shading.distant_viewer = scene->distant_viewer;
     trace->shading.signed_dots = scene->signed_dots;
-    set_camera(trace, &scene->camera, eye_from_world, width, height);
+    const Real tangent =
+        real_tan(scene_fovy(&scene->camera, (double)width / height) * (REAL_PI / 360));
+    const Real aspect = (Real)width / height;
+    trace->across = turn_to_world((Real3){2 * tangent * aspect / width, 0, 0}, eye_from_world);
+    trace->down = turn_to_world((Real3){0, -2 * tangent / height, 0}, eye_from_world);
+    trace->corner = turn_to_world((Real3){-tangent * aspect, tangent, -1}, eye_from_world);
+    trace->shading.view = turn_to_world((Real3){0, 0, 1}, eye_from_world);
     if (!fill(trace, scene, eye_from_world, options)) {
         trace_close(trace);
         return message_set(message, "reference: %s",

@@ -6,7 +6,6 @@
 #include "scene/scene_file.h"
 
 #include <fcntl.h>
-#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

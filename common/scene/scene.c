@@ -29,14 +29,9 @@ const ShadowSettings SHADOWS_DEFAULT = {.way = SHADOWS_ON, .map_size = 1024, .bi
 /* Squares of distances must fit into a float. */
 static const double MAX_POSITION = 1e15;
 
-static bool in_range(Vec3 v)
-{
-    return fabs(v.x) <= MAX_POSITION && fabs(v.y) <= MAX_POSITION && fabs(v.z) <= MAX_POSITION;
-}
-
 static bool check_vector(const char *subject, const char *name, Vec3 v, Message *message)
 {
-    if (in_range(v))
+    if (fabs(v.x) <= MAX_POSITION && fabs(v.y) <= MAX_POSITION && fabs(v.z) <= MAX_POSITION)
         return true;
     return message_set(message, "%s: %s (%g, %g, %g): must be %g at most", subject, name, v.x, v.y,
                        v.z, MAX_POSITION);

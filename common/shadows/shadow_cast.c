@@ -227,20 +227,6 @@ static ShadowEnd end_of(const ShadowThrow *thrown)
                                                    : SHADOW_END_OPEN;
 }
 
-static void set_light(ShadowMask *mask, const ShadowThrow *thrown, Vec3 near)
-{
-    const Vec4 given = thrown->light_object, end = thrown->end;
-    const Vec3 place = {given.x, given.y, given.z};
-    float light[4] = {0, 0, 0, given.w != 0 ? 1 : 0};
-    const float plane[4] = {(float)end.x, (float)end.y, (float)end.z,
-                            (float)(end.x * near.x + end.y * near.y + end.z * near.z + end.w)};
-    vec3_to_float(given.w != 0 ? vec3_subtract(place, near) : place, light);
-    shadow_mask_transform(mask, thrown->surface.clip_from_object, mask->near);
-    shader_set_vec3(mask->current->center, near);
-    glUniform4fv(mask->current->light, 1, light);
-    glUniform4fv(mask->current->end, 1, plane);
-}
-
 static bool same_kind(const ShadowVolumeKind *a, const ShadowVolumeKind *b)
 {
     return memcmp(&a->light, &b->light, sizeof a->light) == 0 && a->facing == b->facing &&
@@ -286,7 +272,17 @@ bool shadow_cast(ShadowVolumes *volumes, ShadowMask *mask, const ShadowThrow *th
     const UploadedVolume *volume = find_volume(volumes, thrown, message);
     if (!volume)
         return false;
-    set_light(mask, thrown, silhouette->center);
+    const Vec4 given = thrown->light_object, end = thrown->end;
+    const Vec3 place = {given.x, given.y, given.z};
+    float light[4] = {0, 0, 0, given.w != 0 ? 1 : 0};
+    const float plane[4] = {(float)end.x, (float)end.y, (float)end.z,
+                            (float)(end.x * silhouette->center.x + end.y * silhouette->center.y +
+                                    end.z * silhouette->center.z + end.w)};
+    vec3_to_float(given.w != 0 ? vec3_subtract(place, silhouette->center) : place, light);
+    shadow_mask_transform(mask, thrown->surface.clip_from_object, mask->near);
+    shader_set_vec3(mask->current->center, silhouette->center);
+    glUniform4fv(mask->current->light, 1, light);
+    glUniform4fv(mask->current->end, 1, plane);
     shadow_mask_state(&thrown->surface, false);
     glDepthMask(GL_FALSE);
     glEnable(GL_STENCIL_TEST);

@@ -1,7 +1,6 @@
 /* Ambient light on a round body, alone and with a light: it comes from all directions alike. */
 #include "diagrams/figures.h"
 
-#include <math.h>
 #include <stdio.h>
 
 static const Vec3 ORIGIN = {0, 0, 0};

@@ -213,17 +213,6 @@ static DrawingPoint ray_begin(const Strip *strip, double x, Vec3 l, double rise,
     return board_at(foot, l, fmin(strip->reach, fmin(rise / fabs(l.y), aside / fabs(l.x))));
 }
 
-static void rays_captions(Board *board, const Optics *optics, DrawingBox *part)
-{
-    char text[FIGURE_TEXT] = "parallel: $L$ is the same everywhere";
-    const bool lit = optics_left(optics->light).y > 0;
-    if (optics->radiating)
-        snprintf(text, sizeof text, "a lamp at %.6g widths: $L$ turns by %.3g°", optics->distance,
-                 optics_spread(optics));
-    figure_captions(board, part, text,
-                    lit ? "$N·L$ is written below each point" : "$N·L$ ≤ 0 counts as 0: no light");
-}
-
 void figure_rays(Board *board, const Optics *optics, int number)
 {
     const double em = board->em;
@@ -232,7 +221,13 @@ void figure_rays(Board *board, const Optics *optics, int number)
     shown.radiating = number;
     const double cosine = optics_left(optics->light).y;
     DrawingBox part = figure_part(board, number);
-    rays_captions(board, &shown, &part);
+    char text[FIGURE_TEXT] = "parallel: $L$ is the same everywhere";
+    const bool lit = optics_left(shown.light).y > 0;
+    if (shown.radiating)
+        snprintf(text, sizeof text, "a lamp at %.6g widths: $L$ turns by %.3g°", shown.distance,
+                 optics_spread(&shown));
+    figure_captions(board, &part, text,
+                    lit ? "$N·L$ is written below each point" : "$N·L$ ≤ 0 counts as 0: no light");
     const double width = part.right - part.left;
     const double depth = (2.4 + depth_for(cosine)) * em;
     const double above = part.bottom - depth - part.top - 1.3 * em;

@@ -11,7 +11,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* A triangle that a pixel may show. */
 typedef struct Candidate {

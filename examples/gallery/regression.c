@@ -78,13 +78,6 @@ __attribute__((format(printf, 3, 4))) static void say(TemplateValues *page, cons
     template_set(template_add(page, "line"), "text", "%s", text);
 }
 
-/* Says which options are others than they were: where the shaders are does not count. */
-static void say_options(const Picture *before, const Picture *now, TemplateValues *page)
-{
-    if (before->command[0] && strcmp(before->command, now->command) != 0)
-        say(page, now->title, "its command was %s, and is %s", before->command, now->command);
-}
-
 /* Of a driver that is not here nothing was measured. What any may do: numbers of mediump have at
  * least 11 bits (OpenGL ES Shading Language 1.00.17, 4.5.2), positions 4 below a pixel (OpenGL ES
  * 2.0.25, table 6.20), functions the errors that Vulkan allows (Precision and Operation of SPIR-V
@@ -324,7 +317,10 @@ static bool say_picture(Regression *regression, RegressionPicture *of, Message *
     TemplateValues *page = template_add(regression->page, "picture");
     of->capture = (Capture){.draw_count = 0};
     template_set(page, "name", "%s", now->title);
-    say_options(&regression->before, now, page);
+    /* Says which options are others than they were: where the shaders are does not count. */
+    if (regression->before.command[0] && strcmp(regression->before.command, now->command) != 0)
+        say(page, now->title, "its command was %s, and is %s", regression->before.command,
+            now->command);
     find_changed(regression, of, &changed, page);
     const bool sized = before->width == now->image.width && before->height == now->image.height;
     bool wrong = !sized, unknown = false;

@@ -108,19 +108,6 @@ static bool same_at(const Pair *pair, int i, int j)
     return same(pair->lines[0][i], pair->names[0], pair->lines[1][j], pair->names[1]);
 }
 
-static void measure(const Pair *pair)
-{
-    for (int i = pair->count[0] - 1; i >= 0; i--) {
-        for (int j = pair->count[1] - 1; j >= 0; j--) {
-            const uint16_t left = *common_at(pair, i, j + 1), below = *common_at(pair, i + 1, j);
-            *common_at(pair, i, j) = same_at(pair, i, j)
-                                         ? (uint16_t)(*common_at(pair, i + 1, j + 1) + 1)
-                                     : left > below ? left
-                                                    : below;
-        }
-    }
-}
-
 /* All lines of both files, in order. */
 static void merge(Changes *all, const Pair *pair)
 {
@@ -180,7 +167,15 @@ bool changes_between(Changes *changes, ChangeText before, ChangeText after, int 
     }
     const size_t cells = (size_t)(pair->count[0] + 1) * (size_t)(pair->count[1] + 1);
     pair->common = memory_new(cells, sizeof *pair->common);
-    measure(pair);
+    for (int i = pair->count[0] - 1; i >= 0; i--) {
+        for (int j = pair->count[1] - 1; j >= 0; j--) {
+            const uint16_t left = *common_at(pair, i, j + 1), below = *common_at(pair, i + 1, j);
+            *common_at(pair, i, j) = same_at(pair, i, j)
+                                         ? (uint16_t)(*common_at(pair, i + 1, j + 1) + 1)
+                                     : left > below ? left
+                                                    : below;
+        }
+    }
     merge(&all, pair);
     keep_near(changes, &all, around, changed);
     changes_close(&all);

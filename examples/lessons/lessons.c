@@ -171,12 +171,6 @@ static bool add_changes(const char *extension, const ShaderLoader *loader, Messa
     return true;
 }
 
-static bool find_changes(const ShaderLoader *loader, Message *message)
-{
-    return add_changes("vert", loader, message) && add_changes("frag", loader, message) &&
-           (!LESSONS[lesson].before || add_changes("c", loader, message));
-}
-
 static bool init(const ShaderLoader *loader, Message *message)
 {
     ShaderFiles read = {.count = 0};
@@ -186,7 +180,8 @@ static bool init(const ShaderLoader *loader, Message *message)
     const Example *before = LESSONS[lesson].before;
     const bool done = (!before || open_slot(&state.slots[PAGE_BEFORE], before, &own, message)) &&
                       open_slot(&state.slots[PAGE_AFTER], LESSONS[lesson].example, &own, message) &&
-                      find_changes(&own, message);
+                      add_changes("vert", &own, message) && add_changes("frag", &own, message) &&
+                      (!LESSONS[lesson].before || add_changes("c", &own, message));
     shader_files_close(&read);
     return done;
 }

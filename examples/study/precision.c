@@ -56,17 +56,6 @@ static bool write_json(const Arithmetics *found, const Forecast *forecast, const
     return done;
 }
 
-/* An earlier run's show other numbers. */
-static void remove_plots(const char *folder)
-{
-    static const char *const endings[] = {"png", "svg"};
-    for (int i = 0; i < 2; i++) {
-        char path[PATH_MAX];
-        if (snprintf(path, sizeof path, "%s/precision.%s", folder, endings[i]) < PATH_MAX)
-            unlink(path);
-    }
-}
-
 static bool report(const Arithmetics *found, const Options *options, Message *message)
 {
     Forecast forecast;
@@ -76,7 +65,14 @@ static bool report(const Arithmetics *found, const Options *options, Message *me
         !write_json(found, &forecast, options->output, message))
         return false;
     if (!arithmetic_plot(found, options->output, &plot)) {
-        remove_plots(options->output);
+        /* An earlier run's show other numbers. */
+        static const char *const endings[] = {"png", "svg"};
+        for (int i = 0; i < 2; i++) {
+            char path[PATH_MAX];
+            if (snprintf(path, sizeof path, "%s/precision.%s", options->output, endings[i]) <
+                PATH_MAX)
+                unlink(path);
+        }
         fprintf(stderr, "precision: no plot: %s\n", plot.text);
     }
     if (json)

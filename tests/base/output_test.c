@@ -6,7 +6,6 @@
 #include "support/testing.h"
 
 #include <fcntl.h>
-#include <limits.h>
 #include <pthread.h>
 #include <sched.h>
 #include <signal.h>

@@ -9,7 +9,6 @@
 #include "support/testing.h"
 
 #include <sys/stat.h>
-#include <time.h>
 #include <unistd.h>
 
 static const double PATIENCE = 300; /* seconds */

@@ -74,14 +74,6 @@ static Lighting *lighting;
 
 /* The scenes. */
 
-/* Points the scene to its own step's lights and object, because a copy's are elsewhere. */
-static void settle(Step *step)
-{
-    step->object.mesh = &sphere;
-    step->scene.lights = step->lights;
-    step->scene.objects = &step->object;
-}
-
 static Light light_of(int has)
 {
     static const Vec3 grey = {0.3, 0.3, 0.3}, none = {0, 0, 0};
@@ -156,7 +148,10 @@ static void make_steps(void)
                 step.lights[k].direction = (Vec3){1, 2, 3};
         }
         steps[i] = step;
-        settle(&steps[i]);
+        /* Points the scene to its own step's lights and object, because a copy's are elsewhere. */
+        steps[i].object.mesh = &sphere;
+        steps[i].scene.lights = steps[i].lights;
+        steps[i].scene.objects = &steps[i].object;
     }
 }
 
@@ -169,17 +164,6 @@ typedef struct Hand {
 } Hand;
 
 static Hand hand;
-
-static bool open_hand(Message *message)
-{
-    return shader_open(&hand.shader, &(ShaderLoader){0}, "study/by_hand", message) &&
-           mesh_buffer_open(&hand.buffer, &sphere, message) &&
-           shader_uniform(&hand.shader, "u_ClipFromObject", &hand.clip_from_object, message) &&
-           shader_uniform(&hand.shader, "u_EyeFromObject", &hand.eye_from_object, message) &&
-           shader_uniform(&hand.shader, "u_Direction", &hand.direction, message) &&
-           shader_uniform(&hand.shader, "u_Diffuse", &hand.diffuse, message) &&
-           shader_attribute(&hand.shader, "a_Normal", &hand.normal, message);
-}
 
 static bool draw_hand(const Step *step, Message *message)
 {
@@ -362,8 +346,15 @@ static bool measure_frames(Message *message)
 static bool run(Message *message)
 {
     make_steps();
-    return mesh_sphere(&sphere, 1, 64, 32, message) && open_hand(message) && print_sizes(message) &&
-           measure_frames(message);
+    return mesh_sphere(&sphere, 1, 64, 32, message) &&
+           (shader_open(&hand.shader, &(ShaderLoader){0}, "study/by_hand", message) &&
+            mesh_buffer_open(&hand.buffer, &sphere, message) &&
+            shader_uniform(&hand.shader, "u_ClipFromObject", &hand.clip_from_object, message) &&
+            shader_uniform(&hand.shader, "u_EyeFromObject", &hand.eye_from_object, message) &&
+            shader_uniform(&hand.shader, "u_Direction", &hand.direction, message) &&
+            shader_uniform(&hand.shader, "u_Diffuse", &hand.diffuse, message) &&
+            shader_attribute(&hand.shader, "a_Normal", &hand.normal, message)) &&
+           print_sizes(message) && measure_frames(message);
 }
 
 static void finish(void)

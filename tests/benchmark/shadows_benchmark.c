@@ -89,19 +89,6 @@ static void make_setting(Setting *setting, const char *name, const Mesh *mesh, i
     set_ways(setting);
 }
 
-/* The scene of the program, whose lights have shadows. */
-static void make_program(Setting *setting)
-{
-    setting->name = "Shadows";
-    for (int way = 0; way < WAYS; way++) {
-        Scene *scene = &setting->ways[way].scene;
-        example_scene(&Shadows)->make(0, 0, scene);
-        for (int i = 0; i < scene->light_count; i++)
-            setting->ways[way].lights[i] = scene->lights[i];
-    }
-    set_ways(setting);
-}
-
 static bool draw(void *argument, Message *message)
 {
     Way *way = argument;
@@ -154,7 +141,15 @@ static bool measure_all(Message *message)
     make_setting(&settings[1], "the same, a point light", &teapot, 1, LIGHT_POINT);
     make_setting(&settings[2], "the same, three point lights", &teapot, 3, LIGHT_POINT);
     make_setting(&settings[3], "a sphere over a floor, a point light", &ball, 1, LIGHT_POINT);
-    make_program(&settings[4]);
+    /* The scene of the program, whose lights have shadows. */
+    settings[4].name = "Shadows";
+    for (int way = 0; way < WAYS; way++) {
+        Scene *scene = &settings[4].ways[way].scene;
+        example_scene(&Shadows)->make(0, 0, scene);
+        for (int i = 0; i < scene->light_count; i++)
+            settings[4].ways[way].lights[i] = scene->lights[i];
+    }
+    set_ways(&settings[4]);
     table_open(&table, "|without shadows, ms|again, over that|volumes|map:512|map:512, lights "
                        "move|triangles of volumes");
     for (int i = 0; i < SCENES; i++)

@@ -7,12 +7,9 @@
  * cheapest_quality_test NAME --error E ...: judges this command of a program alone.
  */
 #include "app/options.h"
-#include "app/renderer.h"
 #include "kinds/scene_views.h"
 #include "base/clock.h"
 #include "base/random.h"
-#include "choose/cheapest_search.h"
-#include "scene/scene_example.h"
 #include "study/results/table.h"
 #include "support/examples.h"
 #include "support/oracle.h"

@@ -47,16 +47,6 @@ static bool between(double low, float value, double high)
     return low <= (double)value && (double)value <= high;
 }
 
-static void check_bounds(const Mesh *mesh, bool finite)
-{
-    const MeshBox box = mesh_bounds(mesh);
-    for (size_t i = 0; i < mesh->vertex_count && finite; i++) {
-        const float *p = mesh->vertices[i].position;
-        require(between(box.low.x, p[0], box.high.x) && between(box.low.y, p[1], box.high.y) &&
-                between(box.low.z, p[2], box.high.z));
-    }
-}
-
 static size_t check_faces(const Mesh *mesh)
 {
     size_t with_area = 0;
@@ -75,7 +65,12 @@ static void check_any(const Mesh *mesh)
     const bool finite = all_finite(mesh);
     const size_t with_area = check_faces(mesh);
     Mesh other;
-    check_bounds(mesh, finite);
+    const MeshBox box = mesh_bounds(mesh);
+    for (size_t i = 0; i < mesh->vertex_count && finite; i++) {
+        const float *p = mesh->vertices[i].position;
+        require(between(box.low.x, p[0], box.high.x) && between(box.low.y, p[1], box.high.y) &&
+                between(box.low.z, p[2], box.high.z));
+    }
     Message message = {0};
     require(mesh_copy(&other, mesh, NULL));
     require(mesh_check(mesh, &message) == finite);

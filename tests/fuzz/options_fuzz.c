@@ -19,20 +19,6 @@
 
 static const char *const NAMES[] = {"LightedCube", "PointLightedCube", "output", NULL};
 
-static void read_one(const char *argument)
-{
-    int width = 0, height = 0;
-    double number = 0;
-    char path[64];
-    Message message = {0};
-    if (parse_size(argument, &width, &height))
-        require(width >= 1 && width <= PARSE_SIZE_MAX && height >= 1 && height <= PARSE_SIZE_MAX);
-    if (parse_number(argument, -1e9, 1e9, &number))
-        require(fabs(number) <= 1e9);
-    text_nearest(argument, NAMES);
-    require(output_numbered(argument, 12345, path, sizeof path, &message) == !message.text[0]);
-}
-
 static void read_all(const Usage *usage, int count, char *arguments[])
 {
     Options options;
@@ -62,7 +48,17 @@ FUZZ(data, size)
     char *arguments[MAX + 2] = {"program"}, *again[MAX + 2];
     int count = 1;
     for (char *p = text; p < text + size && count <= MAX; p += strlen(p) + 1) {
-        read_one(p);
+        int width = 0, height = 0;
+        double number = 0;
+        char path[64];
+        Message message = {0};
+        if (parse_size(p, &width, &height))
+            require(width >= 1 && width <= PARSE_SIZE_MAX && height >= 1 &&
+                    height <= PARSE_SIZE_MAX);
+        if (parse_number(p, -1e9, 1e9, &number))
+            require(fabs(number) <= 1e9);
+        text_nearest(p, NAMES);
+        require(output_numbered(p, 12345, path, sizeof path, &message) == !message.text[0]);
         arguments[count++] = p;
     }
     memcpy(again, arguments, sizeof again); /* reading moves what is no option to the end */

@@ -49,15 +49,6 @@ static double taken_number(Input *input, double old)
                           : number;
 }
 
-static void check(const Reference *picture)
-{
-    for (int i = 0; i < picture->width * picture->height; i++) {
-        for (int c = 0; c < 3; c++)
-            require(picture->color[3 * i + c] >= 0 && picture->color[3 * i + c] <= 1);
-        require(picture->depth[i] > 0 && picture->coverage[i] >= 0 && picture->coverage[i] <= 1);
-    }
-}
-
 static void render(const Scene *scene, bool as_meshes)
 {
     Reference picture;
@@ -65,7 +56,11 @@ static void render(const Scene *scene, bool as_meshes)
     const ReferenceOptions options = {
         .width = 2, .height = 1, .meshes = as_meshes, .edge_error = 255, .threads = 1};
     require(reference_open(&picture, scene, &options, &message));
-    check(&picture);
+    for (int i = 0; i < picture.width * picture.height; i++) {
+        for (int c = 0; c < 3; c++)
+            require(picture.color[3 * i + c] >= 0 && picture.color[3 * i + c] <= 1);
+        require(picture.depth[i] > 0 && picture.coverage[i] >= 0 && picture.coverage[i] <= 1);
+    }
     reference_close(&picture);
 }
 
@@ -124,21 +119,6 @@ static void add_numbers(Numbers *to, void *of, size_t first, size_t last)
 #define ADD_NUMBERS(to, of, Type, first, last)                                                     \
     add_numbers(to, of, offsetof(Type, first), offsetof(Type, last))
 
-static void find_numbers(Numbers *to, RandomScene *made)
-{
-    ADD_NUMBERS(to, &made->scene.camera, Camera, eye, aspect);
-    ADD_NUMBERS(to, &made->scene, Scene, global_ambient.x, global_ambient.z);
-    for (int i = 0; i < made->scene.light_count; i++)
-        ADD_NUMBERS(to, &made->lights[i], Light, position, range);
-    for (int i = 0; i < made->scene.object_count; i++) {
-        Object *object = &made->objects[i];
-        ADD_NUMBERS(to, &object->world_from_object, Mat4, m[0], m[15]);
-        ADD_NUMBERS(to, &object->front, Material, ambient, shininess);
-        ADD_NUMBERS(to, &object->back, Material, ambient, shininess);
-        ADD_NUMBERS(to, &made->shapes[i].solid, Solid, radius, tube);
-    }
-}
-
 FUZZ(data, size)
 {
     Input input = {data, size};
@@ -149,7 +129,17 @@ FUZZ(data, size)
     random_scene_make(&made, kind, values);
     const uint64_t choices = take(&input, 6);
     change_choices(&made, choices);
-    find_numbers(&numbers, &made);
+    ADD_NUMBERS(&numbers, &made.scene.camera, Camera, eye, aspect);
+    ADD_NUMBERS(&numbers, &made.scene, Scene, global_ambient.x, global_ambient.z);
+    for (int i = 0; i < made.scene.light_count; i++)
+        ADD_NUMBERS(&numbers, &made.lights[i], Light, position, range);
+    for (int i = 0; i < made.scene.object_count; i++) {
+        Object *object = &made.objects[i];
+        ADD_NUMBERS(&numbers, &object->world_from_object, Mat4, m[0], m[15]);
+        ADD_NUMBERS(&numbers, &object->front, Material, ambient, shininess);
+        ADD_NUMBERS(&numbers, &object->back, Material, ambient, shininess);
+        ADD_NUMBERS(&numbers, &made.shapes[i].solid, Solid, radius, tube);
+    }
     while (input.size > 0) {
         double *value = numbers.at[take(&input, 2) % (uint64_t)numbers.count];
         *value = taken_number(&input, *value);

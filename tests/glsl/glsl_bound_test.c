@@ -218,11 +218,6 @@ static double run_at(Shader *shader, Random *random, const double place[GLSL_WAY
     return results[0];
 }
 
-static bool is_in(double value, GlslRange range)
-{
-    return value >= range.low && value <= range.high;
-}
-
 static double check_shader(Random *random, bool narrow, const GlslErrors *errors)
 {
     char text[TEXT];
@@ -240,7 +235,8 @@ static double check_shader(Random *random, bool narrow, const GlslErrors *errors
         const double exact = run_at(&shader, random, place, errors, &driver);
         if (isnan(exact) || isnan(driver))
             fail_msg("not a number, in\n%s", text);
-        if (!is_in(exact, bound.exact) || !(fabs(driver - exact) <= bound.error))
+        if (!(exact >= bound.exact.low && exact <= bound.exact.high) ||
+            !(fabs(driver - exact) <= bound.error))
             fail_msg("%.17g is not in %.17g to %.17g, or %.9g farther from it than %g, in\n%s",
                      exact, bound.exact.low, bound.exact.high, driver, bound.error, text);
         most = fmax(most, fabs(driver - exact));

@@ -6,8 +6,6 @@
 #include "support/testing.h"
 
 #include <limits.h>
-#include <math.h>
-#include <string.h>
 
 typedef struct Shader {
     GlslTree *tree;

@@ -4,7 +4,6 @@
  */
 #include "hard/hard.h"
 #include "reference/reference_trace.h"
-#include "shapes/mesh_solids.h"
 #include "support/oracle.h"
 #include "support/picture_check.h"
 #include "support/testing.h"

@@ -26,20 +26,15 @@ FIXTURE(close_all)
     hard_close();
 }
 
-/* Only a highlight, as bright as a light can be. */
-static void highlight_world(double shininess, Reflection reflection)
+static double worst_of(double shininess, Reflection reflection, HardPrecision precision)
 {
+    /* Only a highlight, as bright as a light can be. */
     hard_world(&world, &sphere);
     world.scene.global_ambient = (Vec3){0, 0, 0};
     world.scene.reflection = reflection;
     world.lights[0].ambient = world.lights[0].diffuse = (Vec3){0, 0, 0};
     world.objects[0].front.specular = (Vec3){1, 1, 1};
     world.objects[0].front.shininess = shininess;
-}
-
-static double worst_of(double shininess, Reflection reflection, HardPrecision precision)
-{
-    highlight_world(shininess, reflection);
     const HardResult result = hard_draw(&world.scene, precision, NULL);
     assert_int_equal(result.not_finite, 0);
 

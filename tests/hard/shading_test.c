@@ -3,7 +3,6 @@
  * the surface or behind it, overexposure, transparency, emission, sRGB.
  */
 #include "hard/hard.h"
-#include "shapes/mesh_solids.h"
 #include "support/oracle.h"
 #include "support/picture_check.h"
 #include "support/testing.h"

@@ -17,14 +17,6 @@ static const double REACH = 16;
 
 static HardScene made;
 
-static void use_way(ShadowWay way)
-{
-    ShadowSettings settings = SHADOWS_DEFAULT;
-    settings.way = (int)way;
-    for (int i = 0; i < 2; i++)
-        lighting_use_shadows(hard.lightings[i], &settings);
-}
-
 static void open_scene(const char *name)
 {
     for (int i = 0; i < HARD_SHADOW_COUNT; i++) {
@@ -104,7 +96,10 @@ static void check_varied(const char *name, double value)
 {
     char full_name[64];
     snprintf(full_name, sizeof full_name, "%s %g", name, value);
-    use_way(SHADOWS_VOLUMES);
+    ShadowSettings settings = SHADOWS_DEFAULT;
+    settings.way = SHADOWS_VOLUMES;
+    for (int i = 0; i < 2; i++)
+        lighting_use_shadows(hard.lightings[i], &settings);
     leave_out_edges(&made.scene, unsure);
     check_way(name, INTERPOLATION_PHONG, HARD_HIGHP, 1);
 }

@@ -130,21 +130,6 @@ static void set_light(GLenum name, const Light *light)
         gl.Enable(name);
 }
 
-/* The light of the viewer is set while the model-view matrix is the identity. */
-static void set_lights(const Scene *scene)
-{
-    Mat4 eye_from_world, clip_from_eye;
-    const Mat4 identity = mat4_identity();
-    scene_camera(&scene->camera, 1, &eye_from_world, &clip_from_eye, NULL);
-    for (GLenum i = 0; i < 8; i++)
-        gl.Disable(GL_LIGHT0 + i);
-    for (int i = 0; i < scene->light_count; i++) {
-        const Light *light = &scene->lights[i];
-        gl.LoadMatrixd(light->space == LIGHT_EYE ? identity.m : eye_from_world.m);
-        set_light(GL_LIGHT0 + (GLenum)i, light);
-    }
-}
-
 static void set_material(GLenum face, const Material *material)
 {
     float v[4];
@@ -236,7 +221,17 @@ void fixed_function_draw(const Scene *scene, Image *picture)
     gl.LightModelfv(GL_LIGHT_MODEL_AMBIENT, color(scene->global_ambient, 1, v));
     gl.LightModeli(GL_LIGHT_MODEL_LOCAL_VIEWER, !scene->distant_viewer);
     gl.ShadeModel(scene->interpolation == INTERPOLATION_CONSTANT ? GL_FLAT : GL_SMOOTH);
-    set_lights(scene);
+    /* The light of the viewer is set while the model-view matrix is the identity. */
+    Mat4 eye_from_world, clip_from_eye;
+    const Mat4 identity = mat4_identity();
+    scene_camera(&scene->camera, 1, &eye_from_world, &clip_from_eye, NULL);
+    for (GLenum i = 0; i < 8; i++)
+        gl.Disable(GL_LIGHT0 + i);
+    for (int i = 0; i < scene->light_count; i++) {
+        const Light *light = &scene->lights[i];
+        gl.LoadMatrixd(light->space == LIGHT_EYE ? identity.m : eye_from_world.m);
+        set_light(GL_LIGHT0 + (GLenum)i, light);
+    }
     for (int i = 0; i < scene->object_count; i++) {
         const Object *object = &scene->objects[i];
         gl.LightModeli(GL_LIGHT_MODEL_TWO_SIDE, object->two_sided);

@@ -1,7 +1,6 @@
 /* A scene of one object by its properties, and pictures of it that are compared. */
 #include "lighting/lighting_world.h"
 
-#include "core/mesh_make.h"
 #include "support/picture_check.h"
 #include "support/testing.h"
 

@@ -5,7 +5,6 @@
  */
 #include "base/random.h"
 #include "core/canvas.h"
-#include "core/mesh_make.h"
 #include "lighting/lighting.h"
 #include "shapes/mesh_solids.h"
 #include "support/testing.h"

@@ -57,8 +57,12 @@ static void GL_APIENTRY no_depth_texture(GLenum target, GLint level, GLint made,
         own_image(target, level, made, width, height, border, format, type, pixels);
 }
 
-static void make_boxes(void)
+TEST_WITH(0, a_cube_of_maps_surrounds_a_light, open_meshes, close_meshes)
 {
+    static unsigned char before[4 * WIDTH * HEIGHT];
+    const long long drawn = lighting_counts(lighting).maps;
+    bool all = true;
+    use_map(512, 0, SHADOWS_DEFAULT.bias);
     static const Vec3 places[2] = {{-1.5, 0.4, -1}, {1.5, 0.2, -1.2}};
     make_world(&box);
     turn_first(
@@ -70,15 +74,6 @@ static void make_boxes(void)
     }
     world.scene.object_count = 4;
     world.lights[0].position = (Vec3){0, 0.5, -0.2};
-}
-
-TEST_WITH(0, a_cube_of_maps_surrounds_a_light, open_meshes, close_meshes)
-{
-    static unsigned char before[4 * WIDTH * HEIGHT];
-    const long long drawn = lighting_counts(lighting).maps;
-    bool all = true;
-    use_map(512, 0, SHADOWS_DEFAULT.bias);
-    make_boxes();
     all &= check_wrong("cube", &world.scene, 4);
     assert_in_range(lighting_counts(lighting).maps - drawn, 2, 6);
     memcpy(before, image.pixels, sizeof before);

@@ -8,7 +8,6 @@
 #include "app/renderer.h"
 #include "probe/replay.h"
 #include "support/examples.h"
-#include "support/picture_check.h"
 #include "support/testing.h"
 
 #include <limits.h>

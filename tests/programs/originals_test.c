@@ -16,11 +16,6 @@
 #include "support/read_line.h"
 #include "support/testing.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { SIZE = 200, LIGHTS = 4 };
 static const double PI = 3.14159265358979323846;
 
@@ -560,17 +555,6 @@ static Vec3 hue(double degrees)
     return colors[(int)sector];
 }
 
-static void open_rainbow(Mesh *mesh)
-{
-    open_cylinder(mesh, 1, 1);
-    SUCCEEDS(mesh_open_colors(mesh, message));
-    for (size_t i = 0; i < mesh->vertex_count; i++) {
-        const float *p = mesh->vertices[i].position;
-        const bool rim = hypot((double)p[0], (double)p[1]) > 0.5;
-        vec3_to_float(rim ? hue(359 * (double)(i % 65) / 64) : grey(1), mesh->colors[i]);
-    }
-}
-
 /* Bits: viewpoint, red, green, blue, global ambient, base. */
 static void make_four(Original *original, double frame, unsigned on)
 {
@@ -604,18 +588,6 @@ static void to_eye(Original *original)
     }
 }
 
-static void draw_markers(const Original *original, const Original *world)
-{
-    CLOSED(mesh_close) Mesh marker;
-    open_sphere(&marker, 0.5, 16, 8);
-    for (int i = 1; i < 4; i++) {
-        Material material = surface_of(grey(0.5), grey(0), 32);
-        if (!world->lamps[i].off)
-            material.emission = world->lamps[i].diffuse;
-        draw_mesh(original, &marker, mat4_translate(world->lamps[i].place), &material);
-    }
-}
-
 /* `original` gets the lamps in eye coordinates. */
 static void draw_four(double frame, unsigned on, const double degrees[3], Original *world,
                       Original *original)
@@ -626,7 +598,13 @@ static void draw_four(double frame, unsigned on, const double degrees[3], Origin
     const Material gray = surface_of(grey(0.7), grey(0.2), 32);
     const Material own = surface_of(grey(1), grey(0), 32);
     open_teapot(&teapot);
-    open_rainbow(&base);
+    open_cylinder(&base, 1, 1);
+    SUCCEEDS(mesh_open_colors(&base, message));
+    for (size_t i = 0; i < base.vertex_count; i++) {
+        const float *p = base.vertices[i].position;
+        const bool rim = hypot((double)p[0], (double)p[1]) > 0.5;
+        vec3_to_float(rim ? hue(359 * (double)(i % 65) / 64) : grey(1), base.colors[i]);
+    }
     make_four(world, frame, on);
     memcpy(world->degrees, degrees, sizeof world->degrees);
     *original = *world;
@@ -636,7 +614,14 @@ static void draw_four(double frame, unsigned on, const double degrees[3], Origin
     draw_mesh(original, &teapot, mat4_product(up, mat4_scale(grey(0.65))), &gray);
     if (on & 32)
         draw_mesh(original, &base, mat4_product(low, flat), &own);
-    draw_markers(original, world);
+    CLOSED(mesh_close) Mesh marker;
+    open_sphere(&marker, 0.5, 16, 8);
+    for (int i = 1; i < 4; i++) {
+        Material material = surface_of(grey(0.5), grey(0), 32);
+        if (!world->lamps[i].off)
+            material.emission = world->lamps[i].diffuse;
+        draw_mesh(original, &marker, mat4_translate(world->lamps[i].place), &material);
+    }
     end_original();
 }
 

@@ -5,7 +5,6 @@
  */
 #include "app/options.h"
 #include "app/renderer.h"
-#include "core/mesh_make.h"
 #include "reference/picture_error.h"
 #include "support/oracle.h"
 #include "support/picture_check.h"

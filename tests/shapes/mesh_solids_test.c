@@ -668,14 +668,6 @@ static void open_irregular_sphere(Mesh *mesh, Mesh *truth, int divisions)
         vec3_to_float(topology_vector(mesh->vertices[i].position), truth->vertices[i].normal);
 }
 
-/* The effect of rounding a sphere's positions on Max's normals: an error of at most FLT_EPSILON / 2
- * relative to the shortest edges, those around the poles, which are 2 pi / n * sin(pi / n) long, or
- * 0.6 of that where vertices were moved. */
-static double rounding_of_max(int divisions)
-{
-    return FLT_EPSILON / 2 / (0.6 * 2 * PI / divisions * sin(PI / divisions));
-}
-
 TEST(max_weights_are_exact_on_any_triangulated_sphere)
 {
     for (int divisions = 8; divisions <= 32; divisions *= 2) {
@@ -688,7 +680,11 @@ TEST(max_weights_are_exact_on_any_triangulated_sphere)
         }
         print_message("%d divisions: off by %.3g (angle), %.3g (area), %.3g (Max)\n", divisions,
                       worst[0], worst[1], worst[2]);
-        assert_true(worst[MESH_WEIGHT_MAX] <= rounding_of_max(divisions));
+        /* The effect of rounding a sphere's positions on Max's normals: an error of at most
+         * FLT_EPSILON / 2 relative to the shortest edges, those around the poles, which are 2 pi /
+         * n * sin(pi / n) long, or 0.6 of that where vertices were moved. */
+        assert_true(worst[MESH_WEIGHT_MAX] <=
+                    FLT_EPSILON / 2 / (0.6 * 2 * PI / divisions * sin(PI / divisions)));
         assert_true(worst[MESH_WEIGHT_ANGLE] > 0.01 && worst[MESH_WEIGHT_AREA] > 0.01);
     }
 }

@@ -7,10 +7,6 @@
 #include "study/arithmetic/arithmetic.h"
 #include "support/testing.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { COUNT = 4096 };
 static Meter meter;
 

@@ -2,7 +2,6 @@
  * report: tables line up, plots are whole files that gnuplot drew, sheets show what is different.
  */
 #include "study/cases/hard_sheet.h"
-#include "study/measure/scenes.h"
 #include "study/report/conclusions.h"
 #include "study/report/report.h"
 #include "study/report/report_gnuplot.h"

@@ -7,7 +7,6 @@
 #include "support/testing.h"
 
 #include <fcntl.h>
-#include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -105,14 +104,6 @@ static void read_clean(const char *path, int count)
     assert_string_equal(said, "");
     assert_int_equal(results.count, count);
     free(said);
-}
-
-static void assert_done(pid_t child)
-{
-    int status = 0;
-    assert_true(child >= 0);
-    assert_int_equal(waitpid(child, &status, 0), child);
-    assert_int_equal(status, 0);
 }
 
 static int lines_in(const char *text)
@@ -427,7 +418,10 @@ TEST_WITH(0, a_file_without_permission_is_refused, testing_enter_folder, leave)
         _exit(results_append("a.csv", &row, 1, fresh()) ||
               strcmp(message.text, "a.csv: cannot write: Permission denied") != 0);
     }
-    assert_done(child);
+    int status = 0;
+    assert_true(child >= 0);
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_int_equal(status, 0);
 }
 
 TEST_WITH(0, rows_appended_concurrently_do_not_mix, testing_enter_folder, leave)

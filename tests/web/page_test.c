@@ -126,18 +126,6 @@ static void command_lines(const char *command, char *lines)
     *lines = '\0';
 }
 
-/* As a window's panel sets and resets one of a program's own options. */
-static void set_and_reset(const Parameter *option, const char *text)
-{
-    const ParameterValue before = parameter_save(option);
-    Message message = {0};
-    if (parameter_read(option, text, &message)) {
-        parameter_restore(option, before);
-        if (option->changed)
-            option->changed(option);
-    }
-}
-
 /* What an option left behind is in the command, or it is not drawn. */
 TEST(a_panel_draws_what_its_command_says)
 {
@@ -150,7 +138,14 @@ TEST(a_panel_draws_what_its_command_says)
                 if (own->kind == PARAMETER_WHOLE || strcmp(own->name, "shape") == 0)
                     continue; /* of meshes, which are opened anew */
                 opened(plain);
-                set_and_reset(own, texts[k - 1]);
+                /* As a window's panel sets and resets one of a program's own options. */
+                const ParameterValue before = parameter_save(own);
+                Message message = {0};
+                if (parameter_read(own, texts[k - 1], &message)) {
+                    parameter_restore(own, before);
+                    if (own->changed)
+                        own->changed(own);
+                }
                 const uint32_t shown = drawn(0);
                 command_lines(page_command(), lines);
                 opened(lines);

@@ -50,9 +50,10 @@ FIXTURE(close_panel)
     panel_close(panel);
 }
 
-/* What is drawn is within the window, and indices are within the arrays. */
-static void check_drawing(void)
+static void frame(void)
 {
+    SUCCEEDS(panel_frame(panel, &input, &content, &result, message));
+    /* What is drawn is within the window, and indices are within the arrays. */
     const PanelDrawing *drawing = &result.drawing;
     for (int i = 0; i < drawing->command_count; i++) {
         const PanelCommand *command = &drawing->commands[i];
@@ -64,12 +65,6 @@ static void check_drawing(void)
         for (int k = command->first; k < command->first + command->count; k++)
             assert_true(command->vertex + drawing->indices[k] < drawing->vertex_count);
     }
-}
-
-static void frame(void)
-{
-    SUCCEEDS(panel_frame(panel, &input, &content, &result, message));
-    check_drawing();
     content.view = result.view;
     window.typed_count = 0;
     window.scroll = 0;
@@ -124,15 +119,6 @@ static void press_chord(WindowKey key)
     window.control = window.down[key] = true;
     frame();
     window.control = false;
-}
-
-static void type(const char *text)
-{
-    for (; *text; text++) {
-        window.typed[0] = (unsigned char)*text;
-        window.typed_count = 1;
-        frame();
-    }
 }
 
 /* Whether a tooltip appears with the pointer there. */
@@ -353,7 +339,11 @@ static void type_into(double x, double y, const char *text)
     press_chord(WINDOW_KEY_A);
     frame();
     assert_true(result.wants_keys);
-    type(text);
+    for (; *text; text++) {
+        window.typed[0] = (unsigned char)*text;
+        window.typed_count = 1;
+        frame();
+    }
 }
 
 static uint32_t enter(double x, double y, const char *text)

@@ -5,9 +5,7 @@
 #include "base/progress.h"
 
 #include <pthread.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { WAYS = METER_STAGES * METER_PRECISIONS };
 

@@ -1,7 +1,6 @@
 #include "study/arithmetic/arithmetic.h"
 
 #include "base/json_writer.h"
-#include "core/shader.h"
 #include "glsl/glsl_run.h"
 #include "scene/quality.h"
 #include "study/measure/scenes.h"

@@ -3,7 +3,6 @@
 #include "base/random.h"
 
 #include <math.h>
-#include <string.h>
 
 #ifdef HAVE_MPFR
 #include <mpfr.h>
@@ -159,11 +158,6 @@ static void vectors(Random *random, Function function, const Format *format, flo
             b[i] = (float)between(random, format, 0, 1);
 }
 
-static bool of_vectors(Function function)
-{
-    return FUNCTIONS[function].inputs > 2;
-}
-
 /* Every number of 16 bits; those that the function has no result for do not count. */
 static void every_half(Batch *batch)
 {
@@ -254,7 +248,7 @@ void batch_fill(Batch *batch, Function function, const Format *format, int numbe
     Random random = {seed ^ (uint64_t)format->bits};
     for (int n = 0; n < BATCH_COUNT; n++) {
         float *a = batch->a[n], *b = batch->b[n];
-        if (of_vectors(function)) {
+        if (FUNCTIONS[function].inputs > 2) {
             vectors(&random, function, format, a, b);
             continue;
         }

@@ -179,19 +179,6 @@ bool meter_format(const Meter *meter, MeterStage stage, MeterPrecision precision
                        METER_STAGE_NAMES[stage]);
 }
 
-/* Positions at the centers of pixels, row by row. */
-static void load_positions(const Meter *meter)
-{
-    float(*at)[2] = memory_new(BATCH_COUNT, sizeof *at);
-    for (int i = 0; i < BATCH_COUNT; i++) {
-        at[i][0] = (float)(2 * (i % WIDTH + 0.5) / WIDTH - 1);
-        at[i][1] = (float)(2 * (i / WIDTH + 0.5) / HEIGHT - 1);
-    }
-    glBindBuffer(GL_ARRAY_BUFFER, meter->buffers[2]);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)sizeof(float[2]) * BATCH_COUNT, at, GL_STATIC_DRAW);
-    free(at);
-}
-
 /* Whether numbers with 24 significant bits pass both stages unchanged. */
 static bool check_channel(const Meter *meter, Message *message)
 {
@@ -230,7 +217,15 @@ static bool prepare(Meter *meter, Message *message)
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     }
-    load_positions(meter);
+    /* Positions at the centers of pixels, row by row. */
+    float(*at)[2] = memory_new(BATCH_COUNT, sizeof *at);
+    for (int i = 0; i < BATCH_COUNT; i++) {
+        at[i][0] = (float)(2 * (i % WIDTH + 0.5) / WIDTH - 1);
+        at[i][1] = (float)(2 * (i / WIDTH + 0.5) / HEIGHT - 1);
+    }
+    glBindBuffer(GL_ARRAY_BUFFER, meter->buffers[2]);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)sizeof(float[2]) * BATCH_COUNT, at, GL_STATIC_DRAW);
+    free(at);
     return check_channel(meter, message);
 }
 

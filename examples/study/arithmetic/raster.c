@@ -12,7 +12,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* A corner: clip coordinates and a varying. */
 typedef struct Corner {

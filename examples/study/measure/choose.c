@@ -13,7 +13,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 static void say(const char *what, const ResultRow *row, ErrorKind kind)
 {
@@ -162,22 +161,6 @@ static void say_ties(const Finalists *finalists, const ResultRow *best, const Ch
     }
 }
 
-/* What less time, or less error, would cost: of the front, the last row beyond the limit. */
-static void say_neighbour(const Front *front, const ChooseLimit *limit)
-{
-    const ResultRow *neighbour = NULL;
-    for (int i = 0; i < front->count; i++) {
-        const ResultRow *row = front->rows[i];
-        if (limit->is_time ? row->time > limit->value && !neighbour
-                           : row_error(row, limit->kind) > limit->value)
-            neighbour = row;
-    }
-    if (neighbour)
-        say(limit->is_time ? "the next slower" : "the next cheaper", neighbour, limit->kind);
-    else
-        printf("there is none that is %s\n", limit->is_time ? "more exact" : "cheaper");
-}
-
 static bool refuse(const Front *front, const char *name, const ChooseLimit *limit, Message *message)
 {
     if (front->count == 0)
@@ -218,7 +201,19 @@ bool choose(Survey *survey, int scene, const ChooseLimit *limit, Message *messag
     if (done && best) {
         say(limit->is_time ? "most exact" : "cheapest", best, limit->kind);
         say_ties(finalists, best, limit);
-        say_neighbour(&front, limit);
+        /* What less time, or less error, would cost: of the front, the last row beyond the limit.
+         */
+        const ResultRow *neighbour = NULL;
+        for (int i = 0; i < front.count; i++) {
+            const ResultRow *row = front.rows[i];
+            if (limit->is_time ? row->time > limit->value && !neighbour
+                               : row_error(row, limit->kind) > limit->value)
+                neighbour = row;
+        }
+        if (neighbour)
+            say(limit->is_time ? "the next slower" : "the next cheaper", neighbour, limit->kind);
+        else
+            printf("there is none that is %s\n", limit->is_time ? "more exact" : "cheaper");
         results_measured_with(&survey->like, with);
         if (best->noise > FRONT_NOISE_BOUND)
             printf("the machine is busy: times have a noise of %.0f%%\n", 100 * best->noise);

@@ -120,11 +120,6 @@ static void clear(const SettingPicture *drawing)
     canvas_clear(drawing->canvas, drawing->made.scene.background, 0); /* see pixel_is_interior */
 }
 
-static double aspect_of(const SettingRenderer *renderer)
-{
-    return (double)renderer->width / renderer->height;
-}
-
 bool setting_picture_open(SettingPicture *drawing, SettingRenderer *renderer, const Scene *scene,
                           const Quality *quality, Message *message)
 {
@@ -153,10 +148,10 @@ bool setting_picture_frame(SettingPicture *drawing, SettingRenderer *renderer, d
     if (renderer->timer)
         glBeginQueryEXT(GL_TIME_ELAPSED_EXT, renderer->timer);
     clear(drawing);
-    if (!lighting_show(
-            drawing->lighting,
-            &(LightingFrame){.scene = &drawing->made.scene, .aspect = aspect_of(renderer)},
-            message))
+    if (!lighting_show(drawing->lighting,
+                       &(LightingFrame){.scene = &drawing->made.scene,
+                                        .aspect = (double)renderer->width / renderer->height},
+                       message))
         return false;
     if (renderer->timer)
         glEndQueryEXT(GL_TIME_ELAPSED_EXT);

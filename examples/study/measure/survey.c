@@ -34,12 +34,6 @@ static void part_path(const Survey *survey, Part part, char path[PATH_MAX])
         snprintf(path, PATH_MAX, "%s/results.csv", survey->folder);
 }
 
-static bool drop(const char *path, Message *message)
-{
-    return unlink(path) == 0 || errno == ENOENT ||
-           message_set(message, "%s: cannot be removed: %s", path, strerror(errno));
-}
-
 bool survey_open(Survey *survey, const Options *options, const SurveyPlan *plan, Message *message)
 {
     *survey =
@@ -57,7 +51,9 @@ bool survey_open(Survey *survey, const Options *options, const SurveyPlan *plan,
              setting_renderer_name(survey->renderer), setting_renderer_version(survey->renderer));
     snprintf(survey->like.threads, sizeof survey->like.threads, "%s",
              threads && threads[0] ? threads : "default");
-    if (plan->fresh && !plan->merge && !drop(survey->path, message)) {
+    if (plan->fresh && !plan->merge &&
+        !(unlink(survey->path) == 0 || errno == ENOENT ||
+          message_set(message, "%s: cannot be removed: %s", survey->path, strerror(errno)))) {
         survey_close(survey);
         return false;
     }

@@ -14,7 +14,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* Errors that differ by less are the same. */
 static const double EQUAL_STEPS = 0.05;

@@ -1,11 +1,9 @@
 #include "study/report/conclusions.h"
 
 #include "study/measure/scenes.h"
-#include "study/results/results.h"
 
 #include <math.h>
 #include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

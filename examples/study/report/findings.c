@@ -14,7 +14,6 @@
 #include "study/results/table.h"
 
 #include <math.h>
-#include <string.h>
 
 /* Error over time: curves, each from a setting on along one axis. */
 

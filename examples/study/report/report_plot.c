@@ -4,7 +4,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 /* The plot area, in pixels from the lower left. */
@@ -128,14 +127,6 @@ static bool plot_open(Plot *plot, const Results *results, const char *scene, Err
     front_open(&plot->front, results, scene, kind);
     choose_pins(plot);
     return true;
-}
-
-static void make_labels(const Plot *plot, Label labels[REPORT_PINS])
-{
-    for (int i = 0; i < plot->pins.count; i++) {
-        labels[i] = (Label){.point = place_of(plot, plot->pins.rows[i])};
-        label_name(&labels[i], &plot->pins.rows[i]->quality);
-    }
 }
 
 static void place_labels(const Plot *plot, Label *labels, int count)
@@ -284,19 +275,6 @@ static double pin_width(void)
     return (MAX.x - MIN.x + 80) / REPORT_PINS - 14;
 }
 
-static void set_pin(TemplateValues *page, const Plot *plot, int number)
-{
-    const ResultRow *row = plot->pins.rows[number];
-    const double middle = pin_left(number) + pin_width() / 2;
-    const double error = row_error(row, plot->kind);
-    TemplateValues *pin = template_add(page, "pin");
-    template_set(pin, "caption", "'%.*f ms, %.*f steps'", row->time < 9.95, row->time, error < 9.95,
-                 error);
-    set_screen(pin, "x0", "y", (Place){middle, CAPTION});
-    template_set(pin, "y0", "%.5f", (CAPTION - 12) / GNUPLOT_HEIGHT);
-    set_screen(pin, "x1", "y1", place_of(plot, row));
-}
-
 /* True if it is there. `first`: of all. */
 static bool set_picture(TemplateValues *page, const Plot *plot, const char *path, int number,
                         bool first)
@@ -341,14 +319,25 @@ bool report_plot(const Results *results, const char *scene, const char *title, E
     bool any = false;
     if (!plot_open(&plot, results, scene, kind, message))
         return false;
-    make_labels(&plot, labels);
+    for (int i = 0; i < plot.pins.count; i++) {
+        labels[i] = (Label){.point = place_of(&plot, plot.pins.rows[i])};
+        label_name(&labels[i], &plot.pins.rows[i]->quality);
+    }
     place_labels(&plot, labels, plot.pins.count);
     results_measured_with(plot.rows[0], with);
     TemplateValues *page = gnuplot_values(title, with);
     set_axes(page, &plot);
     for (int i = 0; i < plot.pins.count; i++) {
         set_label(page, &labels[i]);
-        set_pin(page, &plot, i);
+        const ResultRow *row = plot.pins.rows[i];
+        const double middle = pin_left(i) + pin_width() / 2;
+        const double error = row_error(row, plot.kind);
+        TemplateValues *pin = template_add(page, "pin");
+        template_set(pin, "caption", "'%.*f ms, %.*f steps'", row->time < 9.95, row->time,
+                     error < 9.95, error);
+        set_screen(pin, "x0", "y", (Place){middle, CAPTION});
+        template_set(pin, "y0", "%.5f", (CAPTION - 12) / GNUPLOT_HEIGHT);
+        set_screen(pin, "x1", "y1", place_of(&plot, row));
         report_pin_path(folder, scene, i, path);
         any |= set_picture(page, &plot, path, i, !any);
     }

@@ -167,13 +167,6 @@ static char *break_lines(const char *caption, int width, int *count)
     return text;
 }
 
-static void put_caption(Sheet *sheet, char *lines)
-{
-    int y = 2 * MARGIN + LINE + sheet->height + BAR + LINE + MARGIN + LETTERS;
-    for (char *line = strtok(lines, "\n"); line; line = strtok(NULL, "\n"), y += LINE)
-        image_label(&sheet->image, sheet->image.width / 2, y, LETTERS, line, NULL);
-}
-
 bool report_pair(const Image *drawn, const Reference *exact, const char *path, Message *message)
 {
     enum { SECOND = REPORT_PANEL + REPORT_GAP };
@@ -218,7 +211,9 @@ bool report_sheet(const Image *drawn, const Reference *exact, const char *captio
         for (int panel = 0; panel < PANELS; panel++)
             put_panel(&sheet, panel, &panels[panel]);
         put_scale(&sheet);
-        put_caption(&sheet, lines);
+        int y = 2 * MARGIN + LINE + sheet.height + BAR + LINE + MARGIN + LETTERS;
+        for (char *line = strtok(lines, "\n"); line; line = strtok(NULL, "\n"), y += LINE)
+            image_label(&sheet.image, sheet.image.width / 2, y, LETTERS, line, NULL);
         done = image_write(&sheet.image, path, &options, message);
     }
     free(lines);

@@ -303,13 +303,6 @@ typedef struct Lines {
 
 typedef enum Shown { SHOWN_ERROR, SHOWN_TIME, SHOWN_MOVING } Shown;
 
-static double shown_of(const ShadowMeasured *measured, Shown shown)
-{
-    return shown == SHOWN_ERROR  ? measured->error
-           : shown == SHOWN_TIME ? measured->still.ratio
-                                 : measured->moving.ratio;
-}
-
 /* Of each size, or the same for all of them; with the least and the largest time in its name,
  * unless that is what is shown. */
 static void add_line(Lines *lines, const char *name, const ShadowMeasured *measured, bool same,
@@ -323,7 +316,9 @@ static void add_line(Lines *lines, const char *name, const ShadowMeasured *measu
         if (here->still.ratio <= 0)
             continue;
         lines->x[i][points] = SIZES[k];
-        lines->y[i][points++] = shown_of(here, shown);
+        lines->y[i][points++] = shown == SHOWN_ERROR  ? here->error
+                                : shown == SHOWN_TIME ? here->still.ratio
+                                                      : here->moving.ratio;
         least = fmin(least, here->moving.ratio);
         most = fmax(most, here->moving.ratio);
     }

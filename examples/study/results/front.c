@@ -159,19 +159,6 @@ static int select_entries(Entry *entries, const ResultRow *const *rows, int coun
     return selected;
 }
 
-/* From the most exact on, each whose median is faster than all before it. */
-static void take_tied(Front *front, const Entry *entries, int count)
-{
-    double fastest = INFINITY;
-    for (int i = 0; i < count; i++) {
-        if (entries[i].row->time >= fastest)
-            continue;
-        fastest = entries[i].row->time;
-        if (!front_has(front, entries[i].row))
-            front->tied[front->tied_count++] = entries[i].row;
-    }
-}
-
 void front_find(Front *front, const Results *results, const char *scene, ErrorKind kind)
 {
     int count;
@@ -184,7 +171,15 @@ void front_find(Front *front, const Results *results, const char *scene, ErrorKi
     front->count = take_faster(entries, count, front->rows);
     front->count = take_more_exact(front->rows, front->count, kind);
     prefer_usual(front, entries, count, kind);
-    take_tied(front, entries, count);
+    /* From the most exact on, each whose median is faster than all before it. */
+    double fastest = INFINITY;
+    for (int i = 0; i < count; i++) {
+        if (entries[i].row->time >= fastest)
+            continue;
+        fastest = entries[i].row->time;
+        if (!front_has(front, entries[i].row))
+            front->tied[front->tied_count++] = entries[i].row;
+    }
     free(entries);
     free(rows);
 }

@@ -169,12 +169,6 @@ static bool parse_choice(ResultRow *row, const Column *column, const char *text,
     return fault_set(fault, "%s \"%.32s\": no such choice", column->name, text);
 }
 
-/* A scene's name becomes part of a file name. */
-static bool is_scene(const char *text)
-{
-    return text[0] != '.' && !strchr(text, '/');
-}
-
 static bool parse_text(void *field, const Column *column, const char *text, Fault *fault)
 {
     const size_t length = strlen(text);
@@ -184,7 +178,8 @@ static bool parse_text(void *field, const Column *column, const char *text, Faul
     for (const char *p = text; *p; p++)
         if ((unsigned char)*p < ' ' || *p == 127)
             return fault_set(fault, "%s \"%.32s\": a control character", column->name, text);
-    if (column->offset == SCENE.offset && !is_scene(text))
+    /* A scene's name becomes part of a file name. */
+    if (column->offset == SCENE.offset && !(text[0] != '.' && !strchr(text, '/')))
         return fault_set(fault, "%s \"%.32s\": must not begin with . or hold /", column->name,
                          text);
     memcpy(field, text, length + 1);
