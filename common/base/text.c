@@ -54,6 +54,25 @@ int text_character(const char *text)
     return 0;
 }
 
+int text_count_word(const char *text, const char *word)
+{
+    int count = 0;
+    const size_t length = strlen(word);
+    for (const char *at = text; (at = strstr(at, word)); at += length)
+        count += (at == text || !text_is_word(at[-1])) && !text_is_word(at[length]);
+    return count;
+}
+
+bool text_turns_direction(const char *text)
+{
+    const unsigned char *byte = (const unsigned char *)text;
+    if (byte[0] != 0xE2)
+        return byte[0] == 0xD8 && byte[1] == 0x9C;
+    return (byte[1] == 0x80 &&
+            (byte[2] == 0x8E || byte[2] == 0x8F || (byte[2] >= 0xAA && byte[2] <= 0xAE))) ||
+           (byte[1] == 0x81 && byte[2] >= 0xA6 && byte[2] <= 0xA9);
+}
+
 bool text_is_quote(const char *line)
 {
     const char *number = line + strspn(line, " ");

@@ -13,6 +13,13 @@ bool text_is_word(char c);
 /* The bytes of the UTF-8 character (RFC 3629) that a text begins with; 0: it begins with none. */
 int text_character(const char *text);
 
+/* How often a word is in a text. */
+int text_count_word(const char *text, const char *word);
+
+/* U+200E, U+200F, U+202A to U+202E, U+2066 to U+2069 and U+061C turn the direction of what follows
+ * (Unicode Standard Annex 9), so that a line would read otherwise. */
+bool text_turns_direction(const char *text);
+
 /* Whether a line quotes a source line, as messages do: "  3 | ...". */
 bool text_is_quote(const char *line);
 

@@ -21,7 +21,7 @@
 #include <sys/random.h>
 #include <sys/stat.h>
 
-static int seed = -1;
+static int seed = -1, late;
 static double limit = 10;
 static bool report;
 static const char *json, *pictures, *expected, *own, *fresh, *solution;
@@ -43,6 +43,8 @@ static const Parameter parameters[] = {
      .value = &pictures, .placeholder = "DIR"},
     {"limit", "processor time for the submission, in seconds", PARAMETER_NUMBER, .value = &limit,
      .min = 0.1, .max = 3600},
+    {"late", "with --lab DIR: so many days after the deadline, by the rule in lab.json",
+     PARAMETER_WHOLE, .value = &late, .min = 0, .max = 10000},
     {"expected", "only write the exact picture of LAB's own scene to this file", PARAMETER_TEXT,
      .value = &expected, .placeholder = "FILE"},
     {.name = NULL},
@@ -91,6 +93,7 @@ static int check(const Options *options, const Lab *lab, const char *folder, Mes
         return options_fail(usage.name, message, EXIT_FAILED);
     if (!sandboxed_check(&judged, folder, limit, &verdict, message))
         return options_fail(usage.name, message, EXIT_FAILED);
+    verdict_late(&verdict, lab, late);
     const bool quiet = json && json[0] == '-' && !json[1];
     if (!quiet)
         verdict_print(&verdict, lab, pictures, stdout);
@@ -140,6 +143,10 @@ int main(int argc, char *argv[])
     const Lab *lab = lab_open(own ? own : names[0], &message);
     if (!lab)
         return options_fail(usage.name, &message, EXIT_USAGE);
+    if (late && lab->points.day_count == 0) {
+        message_set(&message, "--late: lab.json of %s has no \"late\"", lab->name);
+        return options_fail(usage.name, &message, EXIT_USAGE);
+    }
     if (report)
         return lab_report(lab, stdout, &message) ? options_finish(usage.name, 0)
                                                  : options_fail(usage.name, &message, EXIT_FAILED);

@@ -87,12 +87,14 @@ const Lab = (() => {
     function tell({verdict, sheet}) {
         const list = (items, title) => items.length ? [element("ul", {"aria-label": title}, ...items)] : [];
         const nodes = [element("p", {class: verdict.verdict === "right" ? "right" : "error"},
-                               verdict.verdict + ", " + verdict.points + " of 10 points")];
+                               verdict.verdict + ", " + verdict.points + " of " + verdict.most + " points")];
         if (verdict.mistakes.length !== 1 || verdict.mistakes[0].name !== verdict.message)
             nodes.push(element("p", {}, verdict.message));
         if (verdict.details)
             nodes.push(element("pre", {tabindex: 0}, verdict.details));
-        nodes.push(...list(verdict.mistakes.map(hint), "Mistakes"),
+        nodes.push(...list((verdict.parts || []).map(({name, state, points, most}) =>
+                           element("li", {}, name + ": " + state + ", " + points + " of " + most + " points")), "Parts"),
+                   ...list(verdict.mistakes.map(hint), "Mistakes"),
                    ...list(verdict.symptoms.map(text => element("li", {}, text)), "Symptoms"));
         if (sheet) {
             const canvas = element("canvas", {id: "sheet", role: "img",

@@ -13,13 +13,13 @@ const Progress = (() => {
     }
 
     function of(lab) {
-        const {verdict, points} = Object.hasOwn(all(), lab) ? all()[lab] || {} : {};
-        return typeof verdict === "string" && Number.isFinite(points) ? {verdict, points} : {};
+        const {verdict, points, most} = Object.hasOwn(all(), lab) ? all()[lab] || {} : {};
+        return typeof verdict === "string" && Number.isFinite(points) ? {verdict, points, most} : {};
     }
 
-    function keep(lab, {verdict, points}) {
+    function keep(lab, {verdict, points, most}) {
         try {
-            localStorage.setItem(KEY, JSON.stringify({...all(), [lab]: {verdict, points}}));
+            localStorage.setItem(KEY, JSON.stringify({...all(), [lab]: {verdict, points, most}}));
         } catch { /* then it is not kept */ }
     }
 

@@ -412,7 +412,7 @@ class Abuse(Class):
             self.assertNotIn(b"the secret", content, path)
 
     def test_text_that_students_choose_stays_text(self):
-        names = ["<script>alert(1)<", "=1+cmd|' ", 'a"b,c', "-rf", "%s%n", "' onload='x", "a&b;"]
+        names = ["<script>alert(1)<", "=1+cmd|' ", 'a"b,c', "-rf", "%s%n", "' onload='x", "a&b;", "@SUM(A1)"]
         for name in names:
             self.submit(name, lab05_frag="#error <script>=1+1</script>\n" + self.frag())
         self.assertEqual(len(self.lab5()), len(names))

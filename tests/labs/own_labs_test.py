@@ -12,6 +12,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import zipfile
 
@@ -195,6 +196,100 @@ class Platform(Case):
             self.assertFalse(os.path.exists(self.path("evil.vert")) or os.path.lexists(self.path("out", "evil.vert")))
 
 
+class Points(Case):
+    """Points by parts, and what is taken from those that are late."""
+
+    PARTS = '"parts": {"ambient": 1, "diffuse": 2, "attenuation": 3, "spot": 2}'
+    # Of the solution of extra/spot: what becomes what, the parts that are right, and the points.
+    DIVIDED = ("spot * attenuation", "spot / dot(u_Attenuation, vec3(1.0, d, d * d))")
+    ALONE = ("    float attenuation = 1.0 / (u_Attenuation.x + u_Attenuation.y * d + u_Attenuation.z * d * d);\n", "")
+    WRONG = [
+        ([("normalize(v_Normal)", "v_Normal")], ["ambient", "attenuation", "spot"], 7),
+        ([("u_AmbientLight + ", "")], ["diffuse", "attenuation", "spot"], 8),
+        ([("spot * attenuation", "spot / attenuation")], ["ambient", "attenuation", "spot"], 7),
+        ([("smoothstep(u_CosOuterCut, u_CosInnerCut, cosine)", "step(u_CosOuterCut, cosine)")], ["ambient", "attenuation"], 5),
+        # In other words, and without the variable.
+        ([DIVIDED, ALONE], ["ambient", "diffuse", "attenuation", "spot"], 10),
+        ([DIVIDED, ALONE, ("nDotL *", "0.5 * nDotL *")], ["ambient", "attenuation", "spot"], 7),
+        ([DIVIDED, ALONE, ("vec3(1.0, d, d * d)", "vec3(1.0, d, 0.0)")], ["ambient", "spot"], 4),
+    ]
+
+    def lab(self, points, name="spot"):
+        lab = self.copy(name, name)
+        self.change('"drawn": 1, "scenes": 8', '"drawn": 1, ' + points, name, "lab.json")
+        return lab
+
+    def test_parts(self):
+        lab = self.lab(self.PARTS)
+        self.write(read(lab, "solution", "spot.vert"), "mine", "spot.vert")
+        for changes, right, points in self.WRONG:
+            mine = self.write(read(lab, "solution", "spot.frag"), "mine", "spot.frag")
+            for old, new in changes:
+                self.change(old, new, "mine", "spot.frag")
+            found = result(lab, mine)
+            self.assertEqual([part["name"] for part in found["parts"] if part["state"] == "right"], right, changes)
+            self.assertEqual((found["points"], sum(part["points"] for part in found["parts"])), (points, min(points - 1, 8)), changes)
+        said = check("--lab", lab, mine, "--seed", "1").stdout
+        self.assertIn("\n  ambient: right, 1 of 1 points\n  diffuse: wrong, 0 of 2 points\n", said)
+        self.write("void main() {", "mine", "spot.frag")
+        self.assertEqual([(part["state"], part["points"]) for part in result(lab, mine)["parts"]], [("not judged", 0)] * 4)
+
+    def test_days(self):
+        for rule, days in (
+            ('10', {0: 10, 1: 9, 2: 8, 10: 0, 200: 0}), ('[10, 25, 100]', {1: 9, 2: 7.5, 3: 0, 9: 0}), ('3', {1: 9.5, 2: 9}),
+        ):
+            shutil.rmtree(self.path("fog"), ignore_errors=True)
+            lab = self.lab('"scenes": 8, "late": {"percent": %s}' % rule, "fog")
+            for day, points in days.items():
+                found = result(lab, os.path.join(lab, "solution"), "--late", str(day))
+                self.assertEqual(found["points"], points, (rule, day))
+                self.assertEqual("parts" in found, day > 0)
+        done = check("--lab", os.path.join(EXTRA, "fog"), os.path.join(EXTRA, "fog"), "--late", "1")
+        self.assertEqual((done.returncode, done.stderr), (2, 'check: --late: lab.json of fog has no "late"\n'))
+
+    def test_a_class(self):
+        lab = self.lab('"parts": {"seen": 4}, "late": {"due": "2026-11-20 23:59", "percent": 10}', "fog")
+        names = {"ann": "2026-11-20 23:59", "ben": "2026-11-21 00:00", "cy": "2026-11-22 12:00",
+                 "Dee_7_assignsubmission_file_": "2026-12-24 12:00", "Eve_8_assignsubmission_file_": "2026-12-24 12:00"}
+        for name, when in names.items():
+            stamp = time.mktime(time.strptime(when, "%Y-%m-%d %H:%M"))
+            for file in "fog.vert", "fog.frag":
+                self.write(read(lab, "solution", file), "class", name, file)
+                os.utime(self.path("class", name, file), (stamp, stamp))
+        for file in "fog.vert", "fog.frag":
+            self.write(read(lab, "solution", file), "class", "fay_LATE_9_1_" + file)
+
+        def points(*more):
+            done = check("--class", self.path("class"), "--lab", lab, "-o", self.path("out"), *more)
+            self.assertEqual(done.returncode, 0, done)
+            with open(self.path("out", "class.csv"), newline="") as table:
+                rows = list(csv.DictReader(table))
+            return {row["student"]: float(row["points"]) for row in rows}, rows, done.stderr
+
+        found, rows, said = points()
+        self.assertEqual(found, {"ann": 10, "ben": 9, "cy": 8, "Dee": 10, "Eve": 10, "fay": 9})
+        self.assertIn("does not say when a file came", said)
+        self.assertEqual(rows[2]["parts"], "seen: right, 4 of 4 points; ")
+        self.assertIn("day 2 after the deadline: -2 of 10 points", rows[4]["parts"])
+        self.write("7,3\nEve,2026-11-21 23:59\nben,0\n", "late.csv")
+        found, rows, said = points("--late", self.path("late.csv"))
+        self.assertEqual(found, {"ann": 10, "ben": 10, "cy": 8, "Dee": 7, "Eve": 9, "fay": 9})
+        self.assertNotIn("does not say", said)
+        page, student = read(self.path("out", "index.html")), read(self.path("out", "students", "cy", "index.html"))
+        self.assertIn('day 3 after the deadline', page)
+        self.assertIn('<th scope="row">seen</th><td class="number">6</td>', page)
+        self.assertIn("day 2 after the deadline: late, -2 of 10 points", student)
+        self.assertIn("Participant 7,\"Dee\",7,10,-", read(self.path("out", "moodle.csv")))
+        gradescope = json.loads(read(self.path("out", "students", "cy", "results.json")))
+        self.assertEqual(gradescope["score"], 8)
+        self.assertIn("day 2 after the deadline", gradescope["output"])
+        for line, why in ("Zoe,1", "no submission has this name"), ("ben,soon", "must be a student's name or number, a comma, and"), ("x", "a comma"):
+            self.write("7,3\n" + line, "late.csv")
+            done = check("--class", self.path("class"), "--lab", lab, "-o", self.path("out"), "--late", self.path("late.csv"))
+            self.assertEqual(done.stderr.count("late.csv:2: "), 1, done)
+            self.assertIn(why, done.stderr)
+
+
 class Folder(Case):
     def test_the_labs_of_the_programs_are_the_same_by_their_folders(self):
         names = sorted(name for name in os.listdir(LABS) if os.path.exists(os.path.join(LABS, name, "lab.json")))
@@ -248,7 +343,17 @@ class Folder(Case):
         ('"min": 0.08', '"min": 0.8', '"uniforms": "u_FogDensity": "min" must not exceed "max"'),
         ('"value": 0.12, ', "", '"uniforms": "u_FogDensity": must be a name like "u_MvpMatrix", or have "value"'),
         ('{"value": 0.12, "min": 0.08, "max": 0.16}', '"u_Fog"', '"u_FogDensity": "u_Fog" is none of this lab\'s values'),
-        ('"most": 10', '"most": 5', '"points": "drawn" and "scenes" together must not exceed "most"'),
+        ('"most": 10', '"most": 5', '"points": "drawn", "scenes" and "parts" together must not exceed "most"'),
+        (', "scenes": 8', "", '"points": "scenes" is missing, or "parts"'),
+        ('"scenes": 8', '"parts": {"seeen": 1}', '"seeen": no part: must be "diffuse", "ambient", "highlight", "light 1" or "light 2", as far'),
+        ('"scenes": 8', '"parts": {"highlight": 1}', '"highlight": no part: must be "diffuse"'),
+        ('"scenes": 8', '"parts": {"ambient": "1"}', '"points": "ambient": must be a number from 0 to 1000'),
+        ('"scenes": 8', '"parts": {"ambient": 9, "diffuse": 1}', '"parts" together must not exceed "most"'),
+        ('"scenes": 8', '"parts": []', '"points": "parts": must be an object of one to 12 parts'),
+        ('"scenes": 8', '"scenes": 8, "step": 0', '"points": "step": must be a number from 0.01 to 1000'),
+        ('"scenes": 8', '"scenes": 8, "late": {"percent": 110}', '"points": "late": "percent": must be a number from 0 to 100'),
+        ('"scenes": 8', '"scenes": 8, "late": {"due": "2026-11-20 23:59"}', '"points": "late": "percent": is missing'),
+        ('"scenes": 8', '"scenes": 8, "late": {"due": "20.11.2026", "percent": 10}', '"late": "due": must be a time like "2026-11-20 23:59"'),
         ('"light": "point"', '"light": "spot"', '"spot": is missing in "scene": "light" is "spot"'),
         ('"ambient": true', '"highlight": "Phong"', '"shininess": is missing in "scene": there is a "highlight"'),
         ('"ambient": true', '"shaders": "Fog/x"', '"shaders": must be a file\'s name without .vert: a-z, 0-9, _ and -'),

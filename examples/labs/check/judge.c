@@ -308,6 +308,8 @@ static bool explain(Session *session, const char *numbers, Message *message)
     } else if (!explain_shaders(session, message)) {
         return false;
     }
+    if (!parts_judge(&session->pictures, session->files, verdict, message))
+        return false;
     if (numbers[0])
         verdict_add_symptom(verdict, "%s", numbers);
     if (session->lab->given || !numbers[0])
@@ -416,7 +418,7 @@ static bool judge_submission(Session *session, Message *message)
 bool judge(const JudgeOptions *options, Verdict *verdict, Message *message)
 {
     const double start = clock_now();
-    *verdict = (Verdict){.seed = options->seed};
+    verdict_begin(verdict, options->lab, options->seed);
     Session session = {
         .options = options, .lab = options->lab, .verdict = verdict, .files = options->files};
     const bool done = judge_submission(&session, message);

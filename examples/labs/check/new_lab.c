@@ -26,56 +26,9 @@ typedef struct Rule {
     const char *word, *other, *is, *meaning;
 } Rule;
 
-/* clang-format off */
 static const Rule RULES[] = {
-    {'m', "eye", "normal", "u_EyeNormalMatrix", "normals to eye space"},
-    {'m', "normal", "", "u_NormalMatrix", "normals to world space"},
-    {'m', "mvp", "", "u_MvpMatrix", "model space to clip space"},
-    {'m', "model", "proj", "u_MvpMatrix", "model space to clip space"},
-    {'m', "model", "view", "u_ModelViewMatrix", "model space to eye space"},
-    {'m', "model", "", "u_ModelMatrix", "model space to world space"},
-    {'m', "world", "", "u_ModelMatrix", "model space to world space"},
-    {'m', "view", "proj", "u_ViewProjMatrix", "world space to clip space"},
-    {'m', "view", "", "u_ViewMatrix", "world space to eye space"},
-    {'m', "proj", "", "u_ProjMatrix", "eye space to clip space"},
-    {'v', "spot", "dir", "u_SpotDirection", "the spot light's axis; world space, normalized"},
-    {'v', "atten", "", "u_Attenuation", "constant, linear, quadratic"},
-    {'v', "material", "amb", "color of the object", "its reflectance"},
-    {'v', "material", "diff", "color of the object", "its reflectance"},
-    {'v', "obj", "col", "color of the object", "its reflectance"},
-    {'v', "light", "spec", "u_LightColor", "its colour, including intensity"},
-    {'v', "back", "col", "u_BackColor", "the back's reflectance"},
-    {'v', "ambient", "", "u_AmbientLight", "ambient light"},
-    {'v', "spec", "", "u_SpecularColor", "the highlight's colour"},
-    {'v', "light", "eye", "eye u_LightPosition", "eye space"},
-    {'v', "eye", "pos", "u_EyePosition", "world space"},
-    {'v', "view", "pos", "u_EyePosition", "world space"},
-    {'v', "camera", "", "u_EyePosition", "world space"},
-    {'v', "light", "pos", "u_LightPosition", "world space"},
-    {'v', "light", "dir", "u_LightDirection", "to the light; world space, normalized"},
-    {'v', "light", "col", "u_LightColor", "its colour, including intensity"},
-    {'v', "light", "diff", "u_LightColor", "its colour, including intensity"},
-    {'v', "lamp", "pos", "u_LightPosition", "world space"},
-    {'v', "lamp", "dir", "u_LightDirection", "to the light; world space, normalized"},
-    {'v', "lamp", "col", "u_LightColor", "its colour, including intensity"},
-    {'v', "sun", "dir", "u_LightDirection", "to the light; world space, normalized"},
-    {'v', "sun", "col", "u_LightColor", "its colour, including intensity"},
-    {'f', "shin", "", "u_Shininess", "the highlight's exponent"},
-    {'f', "spot", "exp", "u_SpotExponent", "how fast the spot light falls off"},
-    {'f', "outer", "cut", "cosine of u_SpotCutoff", "cosine of half the outer cone's angle"},
-    {'f', "inner", "cut", "cosine of 0.8 u_SpotCutoff", "cosine of half the inner cone's angle"},
-    {'f', "cos", "cut", "cosine of u_SpotCutoff", "cosine of half the cone's angle"},
-    {'f', "constant", "", "constant of u_Attenuation", "of the attenuation"},
-    {'f', "linear", "", "linear of u_Attenuation", "of the attenuation"},
-    {'f', "quadratic", "", "quadratic of u_Attenuation", "of the attenuation"},
-    {'f', "mirrored", "", "u_Mirrored", "-1 if the object is mirrored, else 1"},
-    {'f', "cutoff", "", "u_SpotCutoff", "half the cone's angle, in degrees"},
-    {'a', "pos", "", "position", "model space; w = 1"},
-    {'a', "vert", "", "position", "model space; w = 1"},
-    {'a', "norm", "", "normal", "model space; xyz normalized"},
-    {'a', "col", "", "color", "the object's reflectance"},
+#include "labs/check/uniform_rules.def"
 };
-/* clang-format on */
 
 enum { MAX_FOUND = LAB_MAX_UNIFORMS + 24 };
 

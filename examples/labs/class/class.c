@@ -175,9 +175,10 @@ static int run_class(ClassOptions *options, Message *message)
     find_results(options, results);
     if (!class_find(options->folder, results, &list, &notes, message))
         return options_fail(PROGRAM, message, EXIT_FAILED);
-    say(&notes);
     const Lab *lab = choose_lab(options, &list, message);
-    const bool done = lab && judge_class(options, &list, lab, message);
+    bool done = lab && class_late_find(&list, lab, options->late, &notes, message);
+    say(&notes);
+    done = done && judge_class(options, &list, lab, message);
     class_found_close(&list);
     if (!done)
         return options_fail(PROGRAM, message, lab ? EXIT_FAILED : EXIT_USAGE);

@@ -19,19 +19,19 @@
 /* The numbers of the groups with the parts of a name; 0: none. */
 typedef struct NamePattern {
     const char *text;
-    int student, id, file;
+    int student, id, file, late; /* `late` -1: it is a platform's, which does not say */
 } NamePattern;
 
 static const NamePattern FOLDER_PATTERNS[] = {
-    {"^(.+)_([0-9]+)_assignsubmission_file_?$", 1, 2, 0},
-    {"^(.+)_([0-9]{3,})$", 1, 2, 0},
-    {"^(.+)$", 1, 0, 0},
+    {"^(.+)_([0-9]+)_assignsubmission_file_?$", 1, 2, 0, -1},
+    {"^(.+)_([0-9]{3,})$", 1, 2, 0, 0},
+    {"^(.+)$", 1, 0, 0, 0},
 };
 
 static const NamePattern FILE_PATTERNS[] = {
-    {"^(.+)_([0-9]+)_assignsubmission_file_(.+)$", 1, 2, 3},
-    {"^([^_]+)(_LATE)?_([0-9]+)_[0-9]+_(.+)$", 1, 3, 4},
-    {"^(.+)[_-](lab[0-9]+[^/]*)$", 1, 0, 2},
+    {"^(.+)_([0-9]+)_assignsubmission_file_(.+)$", 1, 2, 3, -1},
+    {"^([^_]+)(_LATE)?_([0-9]+)_[0-9]+_(.+)$", 1, 3, 4, 2},
+    {"^(.+)[_-](lab[0-9]+[^/]*)$", 1, 0, 2, 0},
 };
 
 /* Moodle's text field: not a submission. */
@@ -53,7 +53,8 @@ static bool match(const NamePattern *pattern, const char *entry, ClassName *name
     regfree(&compiled);
     if (!matches)
         return false;
-    *name = (ClassName){.student = ""};
+    *name = (ClassName){.of_platform = pattern->late != 0};
+    name->late = pattern->late > 0 && parts[pattern->late].rm_so >= 0;
     copy_part(name->student, sizeof name->student, entry, &parts[pattern->student]);
     if (pattern->id)
         copy_part(name->id, sizeof name->id, entry, &parts[pattern->id]);
@@ -102,18 +103,6 @@ static void stem(const char *entry, char text[BUNDLE_NAME_SIZE])
         *ending = '\0';
 }
 
-/* U+200E, U+200F, U+202A to U+202E, U+2066 to U+2069 and U+061C turn the direction of what follows
- * (Unicode Standard Annex 9), so that a name could make a table's line read otherwise. */
-static bool turns_direction(const char *text)
-{
-    const unsigned char *byte = (const unsigned char *)text;
-    if (byte[0] != 0xE2)
-        return byte[0] == 0xD8 && byte[1] == 0x9C;
-    return (byte[1] == 0x80 &&
-            (byte[2] == 0x8E || byte[2] == 0x8F || (byte[2] >= 0xAA && byte[2] <= 0xAE))) ||
-           (byte[1] == 0x81 && byte[2] >= 0xA6 && byte[2] <= 0xA9);
-}
-
 /* Replaces by "?" what is not UTF-8, a control character or one of direction, because names go into
  * pages and tables. */
 static void make_plain(char *text)
@@ -121,7 +110,7 @@ static void make_plain(char *text)
     char *to = text;
     while (*text) {
         const int size = text_character(text);
-        if (!size || (unsigned char)*text < ' ' || *text == 0x7F || turns_direction(text)) {
+        if (!size || (unsigned char)*text < ' ' || *text == 0x7F || text_turns_direction(text)) {
             *to++ = '?';
         } else {
             memmove(to, text, (size_t)size);

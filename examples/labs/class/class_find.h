@@ -15,6 +15,7 @@
 #ifndef CLASS_FIND_H
 #define CLASS_FIND_H
 
+#include "labs/program/lab.h"
 #include "labs/sandbox/bundle.h"
 
 #include <limits.h>
@@ -27,6 +28,7 @@ typedef struct ClassName {
     char id[CLASS_ID_SIZE];      /* the platform's number; empty: none */
     char file[BUNDLE_NAME_SIZE]; /* the student's name for it; empty: a whole submission */
     int attempt;                 /* Canvas's number in the file's name; 0: the first */
+    bool of_platform, late;      /* it is a platform's; Canvas says that it is late */
 } ClassName;
 
 /* False: not the name of a submission. */
@@ -59,7 +61,8 @@ typedef struct Found {
         int attempt;
     } * files; /* of FOUND_FILES */
     int count;
-    int attempt; /* how many attempts there are: the latest is judged */
+    int attempt;   /* how many attempts there are: the latest is judged */
+    int days_late; /* begun ones: class_late_find */
 } Found;
 
 typedef struct FoundList {
@@ -72,6 +75,13 @@ typedef struct FoundList {
  * the folder cannot be read. */
 bool class_find(const char *folder, const char *skipped, FoundList *list, Message *notes,
                 Message *message);
+
+/* Finds who is late by the rule of a lab that has one: by what platforms' names say, since the
+ * times in their archives are those of the download; by the newest file of others; and by `table`
+ * (NULL: none), a file with lines like "Li,2" or "4711,2026-11-21 08:00". `notes`, if not NULL,
+ * gets what is not known. False: the table cannot be read, or names somebody else. */
+bool class_late_find(FoundList *list, const Lab *lab, const char *table, Message *notes,
+                     Message *message);
 
 /* Reads the source files of a folder, or single files. For FOUND_ARCHIVE, or a folder that has only
  * an archive, `archive` becomes its path instead; otherwise it is empty. */

@@ -113,6 +113,14 @@ static bool write_student(const ClassStore *store, const ClassResult *result, Me
     template_set(values, "details", "%s", verdict->details);
     template_set(values, "when", "%s", when);
     template_set(values, "seed", "%llu", (unsigned long long)verdict->seed);
+    for (int i = 0; i < verdict->part_count; i++) {
+        const VerdictPart *part = &verdict->parts[i];
+        TemplateValues *row = template_add(values, "part");
+        template_set(row, "name", "%s", part->name);
+        template_set(row, "state", "%s", PART_NAMES[part->state]);
+        template_set(row, "points", "%g", part->points);
+        template_set(row, "most", "%g", part->most);
+    }
     set_cost(values, &verdict->cost);
     set_mistakes(values, verdict);
     set_scenes(values, verdict);
@@ -172,6 +180,20 @@ static void add_bar(TemplateValues *bars, const char *name, int count, int max)
     template_set(bar, "width", "%d", max > 0 ? 100 * count / max : 0);
 }
 
+static void set_parts(TemplateValues *page, const ClassStore *store)
+{
+    const Verdict *first = store->count ? &store->results[0].verdict : NULL;
+    const bool any = first && first->part_count > 0 && first->parts[0].state != PART_LATE;
+    TemplateValues *bars =
+        any ? add_bars(page, "Parts", "Number of students who have it right.") : NULL;
+    for (int k = 0; any && k < first->part_count && first->parts[k].state != PART_LATE; k++) {
+        int right = 0;
+        for (int i = 0; i < store->count; i++)
+            right += store->results[i].verdict.parts[k].state == PART_RIGHT;
+        add_bar(bars, first->parts[k].name, right, store->count);
+    }
+}
+
 static void set_bars(TemplateValues *page, const ClassStore *store)
 {
     int counts[VERDICT_POINTS_END + 1] = {0}, max = 0, count;
@@ -196,6 +218,7 @@ static void set_bars(TemplateValues *page, const ClassStore *store)
     for (int i = 0; i < count; i++)
         add_bar(mistakes, made[i].name, made[i].count, made[0].count);
     free(made);
+    set_parts(page, store);
 }
 
 /* A result in a list of them. */
@@ -235,8 +258,12 @@ static void set_results(TemplateValues *page, const ClassStore *store)
         char names[CLASS_NAMES_SIZE];
         class_mistake_names(verdict, names);
         const bool unnamed = verdict->mistake_count == 0 && verdict->kind != VERDICT_RIGHT;
-        template_set(add_result(page, "result", result), "fault", "%s%s", names,
-                     unnamed ? verdict->message : "");
+        TemplateValues *values = add_result(page, "result", result);
+        template_set(values, "fault", "%s%s", names, unnamed ? verdict->message : "");
+        const VerdictPart *last =
+            &verdict->parts[verdict->part_count ? verdict->part_count - 1 : 0];
+        if (verdict->part_count && last->state == PART_LATE)
+            template_set(values, "late", "%s", last->name);
         if (verdict->picture[0])
             add_result(page, "thumbnail", result);
         pictures |= verdict->picture[0] != '\0';

@@ -48,6 +48,7 @@ static bool settle(Judging *judging, Job *job, Message *message)
     ClassResult *result = &job->result;
     const VerdictKind kind = result->verdict.kind;
     ClassFiles files;
+    verdict_late(&result->verdict, judging->of->lab, job->found->days_late);
     files.picture = sandbox_part(&job->run, SANDBOX_PICTURE, &files.picture_size);
     files.statements = sandbox_part(&job->run, SANDBOX_STATEMENTS, &files.statements_size);
     result->when = (long long)time(NULL);
@@ -67,9 +68,8 @@ static bool give(Judging *judging, Job *job, VerdictKind kind, const char *sente
                  Message *message)
 {
     Verdict *verdict = &job->result.verdict;
+    verdict_begin(verdict, judging->of->lab, judging->of->options->seed);
     verdict->kind = kind;
-    verdict->points = 0;
-    verdict->most = judging->of->lab->points.most;
     job->result.finished = kind == VERDICT_REFUSED;
     verdict_clean(verdict->message, sizeof verdict->message, sentence, false);
     return settle(judging, job, message);
@@ -121,7 +121,7 @@ static bool hash_found(const Found *found, const Lab *lab, char archive[PATH_MAX
     bundle_close(files);
     free(files);
     const bool hashed = done && (!archive[0] || hash_archive(archive, hash, why));
-    *hash ^= lab->hash;
+    *hash ^= lab->hash + (uint64_t)found->days_late;
     return hashed;
 }
 
@@ -132,8 +132,7 @@ static bool start(Judging *judging, Job *job, const Found *found, int slot, bool
     char archive[PATH_MAX];
     Message why = {.text = ""};
     job->found = found;
-    job->result = (ClassResult){.limit = judging->of->options->limit,
-                                .verdict.seed = judging->of->options->seed};
+    job->result = (ClassResult){.limit = judging->of->options->limit};
     memcpy(job->result.student, found->name.student, sizeof job->result.student);
     memcpy(job->result.id, found->name.id, sizeof job->result.id);
     job->result.attempt = found->attempt;
@@ -163,10 +162,8 @@ static bool end(Judging *judging, Job *job, Message *message)
     Verdict *verdict = &job->result.verdict;
     Message why = {.text = ""};
     const SandboxedCheck check = {.lab = judging->of->lab, .seed = judging->of->options->seed};
-    if (!sandboxed_check_end(judging->of->sandbox, &job->run, &check, verdict, &why)) {
-        *verdict = (Verdict){.seed = check.seed};
+    if (!sandboxed_check_end(judging->of->sandbox, &job->run, &check, verdict, &why))
         return give(judging, job, VERDICT_ERROR, why.text, message);
-    }
     job->result.finished = verdict->kind != VERDICT_TIMEOUT;
     if (job->result.finished || judging->alone)
         return settle(judging, job, message);

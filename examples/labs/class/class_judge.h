@@ -25,8 +25,9 @@ typedef struct ClassOptions {
     bool deterministic;
     double limit; /* seconds of computing, for each submission */
     uint64_t seed;
-    bool again; /* judge what has a result, too */
-    bool help;  /* it has been printed */
+    const char *late; /* a table of who is late; NULL: none */
+    bool again;       /* judge what has a result, too */
+    bool help;        /* it has been printed */
 } ClassOptions;
 
 /* False with a message: a usage error. */

@@ -35,8 +35,8 @@ bool class_options_read(ClassOptions *options, int argc, char *argv[], Message *
                                                                     : (int)processors};
     const Parameter table[] = {
         {"class",
-         "judge every submission in DIR, or in a platform's .zip: folders, archives or files, one for each student, as "
-         "people or learning platforms name them; each in a sandboxed process",
+         "judge every submission in DIR, or in a platform's .zip: folders, archives or files, one for "
+         "each student, as people or learning platforms name them; each in a sandboxed process",
          PARAMETER_TEXT, &options->folder, .min = 1, .placeholder = "DIR", .standard = ""},
         {"lab",
          "which lab, or the folder of a lab of your own; default: the one that the names in DIR say",
@@ -51,11 +51,13 @@ bool class_options_read(ClassOptions *options, int argc, char *argv[], Message *
          SANDBOX_SECONDS_MAX, .placeholder = "SECONDS"},
         {"seed", "of the scenes that the students do not know", PARAMETER_WHOLE, &seed, 0,
          2147483647, .placeholder = "N"},
+        {"late", "who is late: names or numbers, each with a comma and days or a time",
+         PARAMETER_TEXT, &options->late, .placeholder = "FILE"},
         {"part", "only the I-th of N parts; -o another folder for each part", PARAMETER_TEXT,
          &options->part, .codec = &OPTION_PART},
         {"merge",
-         "join the results in the folders that are named; refused if a part or a student is "
-         "missing, double, or was judged otherwise",
+         "join the results in the folders that are named, if no part or student is missing, double, "
+         "or judged otherwise",
          PARAMETER_FLAG, .value = &merge},
         {"partial", "merge what there is, and say what is missing", PARAMETER_FLAG,
          .value = &options->partial},

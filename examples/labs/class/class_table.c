@@ -57,7 +57,7 @@ void class_mistake_names(const Verdict *verdict, char names[CLASS_NAMES_SIZE])
                          verdict->mistakes[i].name);
 }
 
-static void put_row(FILE *file, const ClassResult *result)
+static void put_row(FILE *file, const ClassResult *result, bool parts)
 {
     const Verdict *verdict = &result->verdict;
     char names[CLASS_NAMES_SIZE];
@@ -79,18 +79,24 @@ static void put_row(FILE *file, const ClassResult *result)
         fputs(",,,", file);
     fprintf(file, ",%.3g,", verdict->seconds);
     class_table_csv_field(file, result->folder);
-    fputs("\r\n", file);
+    fputs(parts ? ",\"" : "", file);
+    verdict_parts(verdict, "", "; ", file); /* names are of lab.json, without quotes */
+    fputs(parts ? "\"\r\n" : "\r\n", file);
 }
 
 bool class_table_csv(const ClassStore *store, Message *message)
 {
     OutputText out;
-    output_text_open(&out);
-    fputs("student,id,attempt,lab,points,most,verdict,mistakes,message,error,time_ratio,operations,"
-          "seconds,folder\r\n",
-          out.file);
+    int parts = 0;
     for (int i = 0; i < store->count; i++)
-        put_row(out.file, &store->results[i]);
+        parts += store->results[i].verdict.part_count;
+    output_text_open(&out);
+    fprintf(out.file,
+            "student,id,attempt,lab,points,most,verdict,mistakes,message,error,time_ratio,"
+            "operations,seconds,folder%s\r\n",
+            parts ? ",parts" : "");
+    for (int i = 0; i < store->count; i++)
+        put_row(out.file, &store->results[i], parts > 0);
     return output_text_put(&out, store->folder, "class.csv", message);
 }
 
@@ -135,6 +141,7 @@ static char *advice_text(const Verdict *verdict)
                 verdict->mistakes[i].look);
     for (int i = 0; i < verdict->symptom_count; i++)
         fprintf(text.file, "%s\n", verdict->symptoms[i]);
+    verdict_parts(verdict, "", "\n", text.file);
     fputs(verdict->details, text.file);
     return output_text_close(&text);
 }

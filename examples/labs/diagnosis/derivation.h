@@ -165,6 +165,7 @@ typedef struct Term {
 } Term;
 enum { MAX_TERMS = 7 };
 int wrong_part_list(const Lab *lab, Term terms[MAX_TERMS]);
+PartState wrong_part_judge(Derivation *all, const Term *term);
 
 /* Says which terms are right or wrong and, if one value alone explains all, which. */
 void wrong_part_describe(Derivation *all, Verdict *verdict);

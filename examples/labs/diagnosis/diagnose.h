@@ -37,6 +37,11 @@ void symptoms_describe(const LabPictures *pictures, bool moved, Verdict *verdict
 bool diagnose(const LabPictures *pictures, const SubmissionFiles *files, Verdict *verdict,
               Message *message);
 
+/* Says of a wrong submission which of its parts (verdict.h) are right. False, with a message: the
+ * driver failed. */
+bool parts_judge(const LabPictures *pictures, const SubmissionFiles *files, Verdict *verdict,
+                 Message *message);
+
 /* Adds a symptom to a right submission that is right by chance: where it takes a power of a
  * negative number, or another number that is undefined. *wrong: a mistake is added, because it
  * reads beyond an array. */

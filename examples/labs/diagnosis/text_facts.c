@@ -48,21 +48,12 @@ bool text_is_starter(const Lab *lab, const SubmissionFiles *files)
     return same;
 }
 
-static int count_word(const char *text, const char *word)
-{
-    int count = 0;
-    const size_t length = strlen(word);
-    for (const char *at = text; (at = strstr(at, word)); at += length)
-        count += (at == text || !text_is_word(at[-1])) && !text_is_word(at[length]);
-    return count;
-}
-
 bool text_has_word(const SubmissionFiles *files, const char *word)
 {
     bool found = false;
     for (int i = 0; i < files->count && !found; i++) {
         char *plain = plain_text(files->texts[i].text);
-        found = count_word(plain, word) > 0;
+        found = text_count_word(plain, word) > 0;
         free(plain);
     }
     return found;
@@ -74,7 +65,7 @@ bool text_find_suspicion(const Lab *lab, const SubmissionFiles *files, Verdict *
     snprintf(name, sizeof name, "%s.frag", lab->file);
     const char *fragment = submission_file(files, name);
     char *plain = fragment ? plain_text(fragment) : NULL;
-    const bool found = plain && count_word(plain, "lowp") > 0;
+    const bool found = plain && text_count_word(plain, "lowp") > 0;
     free(plain);
     if (!found)
         return false;

@@ -13,8 +13,6 @@
 /* That of pictures; and the share of points that may differ, at edges of shadows. */
 static const double TOLERANCE = 2.5 / 255, MAY_DIFFER = 0.03;
 
-enum { UNSEEN, RIGHT, WRONG };
-
 int wrong_part_list(const Lab *lab, Term terms[MAX_TERMS])
 {
     static const int LIGHTS = POINTS_NO_FIRST | POINTS_NO_SECOND;
@@ -49,7 +47,7 @@ static void run_without(Derivation *all, PointShader pair[2], int without, Numbe
     all->points.without = 0;
 }
 
-static int judge_term(Derivation *all, const Term *term)
+PartState wrong_part_judge(Derivation *all, const Term *term)
 {
     const int count = all->points.count;
     int seen = 0, wrong = 0;
@@ -64,17 +62,20 @@ static int judge_term(Derivation *all, const Term *term)
         for (int c = 0; c < 3; c++) {
             const double own_light = own[i][c] - own_beside[i][c];
             const double right_light = right[i][c] - right_beside[i][c];
-            /* Where all is white already nothing shows. */
+            /* Where all is white already, or below black, nothing shows. */
             const bool full = fmax(own[i][c], right[i][c]) > 0.995 &&
                               fmin(own_beside[i][c], right_beside[i][c]) > TOLERANCE;
-            apart = fmax(apart, full ? 0 : fabs(own_light - right_light));
-            light = fmax(light, full ? 0 : fmax(fabs(own_light), right_light));
+            const bool dark = own_beside[i][c] <= 0 && right_beside[i][c] > TOLERANCE;
+            apart = fmax(apart, full || dark ? 0 : fabs(own_light - right_light));
+            light = fmax(light, full || dark ? 0 : fmax(fabs(own_light), right_light));
         }
         seen += light > TOLERANCE;
         wrong += apart > TOLERANCE;
     }
     free(own);
-    return wrong > MAY_DIFFER * seen && wrong > 0 ? WRONG : seen > 4 ? RIGHT : UNSEEN;
+    return wrong > MAY_DIFFER * seen && wrong > 0 ? PART_WRONG
+           : seen > 4                             ? PART_RIGHT
+                                                  : PART_UNSEEN;
 }
 
 /* "a", "a and b", "a, b and c" of the terms that are so. */
@@ -212,11 +213,11 @@ void wrong_part_describe(Derivation *all, Verdict *verdict)
     char right[256], wrong[256], place[VERDICT_SENTENCE_SIZE] = "";
     const int count = wrong_part_list(all->lab, terms);
     for (int i = 0; i < count; i++)
-        states[i] = judge_term(all, &terms[i]);
+        states[i] = wrong_part_judge(all, &terms[i]);
     for (int i = count; i-- > 0;)
-        first = states[i] == WRONG ? i : first;
-    list_names(terms, states, count, RIGHT, right);
-    list_names(terms, states, count, WRONG, wrong);
+        first = states[i] == PART_WRONG ? i : first;
+    list_names(terms, states, count, PART_RIGHT, right);
+    list_names(terms, states, count, PART_WRONG, wrong);
     if (wrong[0])
         verdict_add_symptom(verdict, "Wrong, each seen alone: %s.", wrong);
     if (right[0])

@@ -58,3 +58,10 @@ bool lab_folder(const Lab *lab, char folder[PATH_MAX], Message *message)
         return true;
     return message_set(message, "%s: the lab's folder %s does not exist", lab->name, folder);
 }
+
+bool lab_has_light(const Lab *lab, const char *part)
+{
+    return strcmp(part, "diffuse") == 0 || (lab->ambient && strcmp(part, "ambient") == 0) ||
+           (lab->specular && strcmp(part, "highlight") == 0) ||
+           (lab->lights == 2 && (strcmp(part, "light 1") == 0 || strcmp(part, "light 2") == 0));
+}

@@ -14,7 +14,14 @@
 #include <limits.h>
 #include <stdint.h>
 
-enum { LAB_COUNT = 11, LAB_MAX_LIGHTS = 2, LAB_MAX_UNIFORMS = 40, LAB_MAX_SOLUTIONS = 4 };
+enum {
+    LAB_COUNT = 11,
+    LAB_MAX_LIGHTS = 2,
+    LAB_MAX_UNIFORMS = 40,
+    LAB_MAX_SOLUTIONS = 4,
+    LAB_MAX_PARTS = 12,
+    LAB_MAX_DAYS = 31
+};
 
 /* What scenes show; the flat ones come first. */
 typedef enum LabShape {
@@ -60,9 +67,18 @@ typedef struct LabAttributes {
     const char *position, *normal, *color; /* NULL: a_Position, a_Normal, a_Color */
 } LabAttributes;
 
-/* Of a lab: of a right submission; of a wrong one that draws, and for all scenes right. */
+/* Of a lab: of a right submission; of a wrong one that draws, for all scenes right, and for each
+ * part that is right: of the light, or a variable of the first solution. */
 typedef struct LabPoints {
-    double most, drawn, scenes;
+    double most, drawn, scenes, step; /* rounded down to a multiple of `step`; 0: 0.5 */
+    struct {
+        const char *name;
+        double points;
+    } parts[LAB_MAX_PARTS];
+    int part_count;
+    long long due;                /* in seconds since 1970; 0: never late */
+    double percent[LAB_MAX_DAYS]; /* of `most`, taken for so many days, the last for all more */
+    int day_count;
 } LabPoints;
 
 typedef struct Lab {
@@ -93,7 +109,7 @@ typedef struct Lab {
     const struct SubmissionFiles *solutions; /* what they draw is right; none: the exact picture */
     int solution_count;
     double tolerance; /* in steps of 1/255; 0: as in other labs */
-    LabPoints points; /* zeroed: 10, 1 and 8 */
+    LabPoints points; /* zeroed: 10, 1, 8 */
     uint64_t hash;    /* of its files */
 } Lab;
 
@@ -107,6 +123,9 @@ const Lab *lab_find(const char *text, Message *message);
  * Returns how many. */
 enum { LAB_MAX_FILES = 3, LAB_NAME_SIZE = 64 };
 int lab_files(const Lab *lab, char names[LAB_MAX_FILES][LAB_NAME_SIZE]);
+
+/* Whether its light has this part: "diffuse", "ambient", "highlight", "light 1", "light 2". */
+bool lab_has_light(const Lab *lab, const char *part);
 
 /* The folder with the lab's task and starter; false, with a message: there is none. */
 bool lab_folder(const Lab *lab, char folder[PATH_MAX], Message *message);

@@ -56,7 +56,7 @@ bool sandboxed_check_end(const Sandbox *sandbox, const SandboxRun *run, const Sa
     size_t size;
     Message why = {.text = ""};
     const SandboxEnd end = sandbox_end(run);
-    *verdict = (Verdict){.seed = check->seed, .most = check->lab->points.most};
+    verdict_begin(verdict, check->lab, check->seed);
     if (end == SANDBOX_FAILED) {
         sandbox_reason(run, reason);
         return message_set(message, "judging failed: %s", reason);
@@ -116,7 +116,7 @@ bool sandboxed_check(const JudgeOptions *options, const char *path, double limit
     if (!realpath(path, place))
         message_set(&why, "%s: %s", path, strerror(errno));
     if (why.text[0] || !kind_of(place, &check.kind, &why)) {
-        verdict_refuse(verdict, options->seed, &why);
+        verdict_refuse(verdict, options->lab, options->seed, &why);
         return true;
     }
     const SandboxInput input = {place, strrchr(place, '/') + 1};

@@ -182,8 +182,7 @@ static bool check(Submitted *of, double seconds, const char *folder, Message *me
 {
     static Verdict verdict; /* large */
     if (!look_into(of)) {
-        verdict_refuse(&verdict, of->seed, &of->why);
-        verdict.most = of->lab->points.most;
+        verdict_refuse(&verdict, of->lab, of->seed, &of->why);
         return put_part("", 0, message) && put_part("", 0, message) &&
                verdict_write(&verdict, of->lab, "", "-", message);
     }

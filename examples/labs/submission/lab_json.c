@@ -2,15 +2,13 @@
  * lacks is refused, with the nearest key, so that a typing error does not become a default. */
 #include "labs/submission/lab_json.h"
 
-#include "base/input.h"
 #include "base/text.h"
 
-#include <ctype.h>
-#include <fcntl.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 
 /* What is read: the message begins with the file and the keys that lead here. */
 typedef struct Reading {
@@ -283,18 +281,89 @@ static bool read_uniforms(Reading *reading, const json_t *object)
     return true;
 }
 
+static bool read_parts(Reading *reading, const json_t *value)
+{
+    LabPoints *points = &reading->folder->lab.points;
+    const size_t count = json_object_size(value);
+    const char *name;
+    json_t *number;
+    if (count < 1 || count > LAB_MAX_PARTS)
+        return fail(reading, "parts", "must be an object of one to 12 parts, each with its points");
+    json_object_foreach((json_t *)value, name, number)
+    {
+        const double part = json_number_value(number);
+        if (!json_is_number(number) || !(part >= 0 && part <= 1000))
+            return fail(reading, name, "must be a number from 0 to 1000");
+        points->parts[points->part_count].name = name;
+        points->parts[points->part_count++].points = part;
+    }
+    return true;
+}
+
+bool lab_time_read(const char *text, long long *seconds)
+{
+    struct tm at = {.tm_isdst = -1};
+    const char *end = strptime(text, "%Y-%m-%d %H:%M", &at);
+    *seconds = (long long)mktime(&at);
+    return end && end[strspn(end, " \r")] == '\0';
+}
+
+static bool read_due(Reading *reading, const json_t *value)
+{
+    return (json_is_string(value) &&
+            lab_time_read(json_string_value(value), &reading->folder->lab.points.due)) ||
+           fail(reading, "due", "must be a time like \"2026-11-20 23:59\"");
+}
+
+static bool read_percent(Reading *reading, const json_t *value)
+{
+    LabPoints *points = &reading->folder->lab.points;
+    const bool list = json_is_array(value);
+    const size_t count = list ? json_array_size(value) : LAB_MAX_DAYS;
+    bool right = count > 0 && count <= LAB_MAX_DAYS;
+    for (size_t i = 0; i < count && right; i++) {
+        const json_t *number = list ? json_array_get(value, i) : value;
+        const double percent = json_number_value(number);
+        right = json_is_number(number) && percent >= 0 && percent <= 100;
+        points->percent[points->day_count++] =
+            list ? percent : fmin(percent * (double)(i + 1), 100);
+    }
+    return right || fail(reading, "percent",
+                         "must be a number from 0 to 100, for each day, or a list of at most 31");
+}
+
+static bool read_late(Reading *reading, const json_t *value)
+{
+    static const Key keys[] = {
+        {"due", KEY_READ, .read = read_due},
+        {"percent", KEY_READ, .needed = true, .read = read_percent},
+        {.name = NULL},
+    };
+    return read_object(reading, "late", value, keys);
+}
+
 static bool read_points(Reading *reading, const json_t *value)
 {
     static const Key keys[] = {
         {"most", KEY_NUMBER, .needed = true, AT(points.most), .min = 1, .max = 1000},
         {"drawn", KEY_NUMBER, .needed = true, AT(points.drawn), .min = 0, .max = 1000},
-        {"scenes", KEY_NUMBER, .needed = true, AT(points.scenes), .min = 0, .max = 1000},
+        {"scenes", KEY_NUMBER, AT(points.scenes), .min = 0, .max = 1000},
+        {"parts", KEY_READ, .read = read_parts},
+        {"step", KEY_NUMBER, AT(points.step), .min = 0.01, .max = 1000},
+        {"late", KEY_READ, .read = read_late},
         {.name = NULL},
     };
     const LabPoints *points = &reading->folder->lab.points;
-    return read_object(reading, "points", value, keys) &&
-           (points->drawn + points->scenes <= points->most ||
-            fail(reading, "points", "\"drawn\" and \"scenes\" together must not exceed \"most\""));
+    if (!read_object(reading, "points", value, keys))
+        return false;
+    double sum = points->drawn + points->scenes;
+    for (int i = 0; i < points->part_count; i++)
+        sum += points->parts[i].points;
+    return (points->part_count || json_object_get(value, "scenes") ||
+            fail(reading, "points", "\"scenes\" is missing, or \"parts\"")) &&
+           (sum <= points->most ||
+            fail(reading, "points",
+                 "\"drawn\", \"scenes\" and \"parts\" together must not exceed \"most\""));
 }
 
 static bool read_solutions(Reading *reading, const json_t *list)
@@ -379,29 +448,21 @@ static bool check_lab(const Reading *reading)
     return true;
 }
 
-static uint64_t hash_text(uint64_t hash, const char *text)
+/* A part is of the light, or a variable of the first solution. */
+static bool check_parts(const Reading *reading)
 {
-    while (*text)
-        hash = (hash ^ (unsigned char)*text++) * 1099511628211ULL; /* FNV-1a */
-    return hash;
-}
-
-/* The folder's name, and that of its shaders: what is before the first "_". */
-static bool name_lab(LabFolder *folder, const char *path, Message *message)
-{
-    if (!realpath(path, folder->path))
-        return message_set(message, "%s: no such folder", path);
-    const char *name = strrchr(folder->path, '/') + 1;
-    if (strlen(name) >= sizeof folder->name)
-        return message_set(message, "%s: the name is too long", path);
-    memcpy(folder->name, name, strlen(name) + 1);
-    for (size_t i = 0; i < strcspn(name, "_"); i++)
-        folder->file[i] = (char)tolower((unsigned char)name[i]);
-    folder->lab = (Lab){.name = folder->name,
-                        .file = folder->file,
-                        .folder = folder->path,
-                        .uniforms = folder->uniforms,
-                        .solutions = folder->solutions};
+    const Lab *lab = &reading->folder->lab;
+    for (int i = 0; i < lab->points.part_count; i++) {
+        const char *part = lab->points.parts[i].name;
+        bool known = lab_has_light(lab, part);
+        for (int k = 0; lab->solution_count && k < lab->solutions->count; k++)
+            known |= part[0] && text_count_word(lab->solutions->texts[k].text, part) > 0;
+        if (!known)
+            return fail(reading, part,
+                        "no part: must be \"diffuse\", \"ambient\", \"highlight\", "
+                        "\"light 1\" or \"light 2\", as far as the lab has it, or "
+                        "a variable of the solution");
+    }
     return true;
 }
 
@@ -423,51 +484,9 @@ static bool add_solutions(Reading *reading)
     return done;
 }
 
-bool lab_folder_open(LabFolder *folder, const char *path, Message *message)
+bool lab_json_read(LabFolder *folder, Message *message)
 {
-    enum { BYTES_MAX = 1 << 20 };
-    char file[2 * PATH_MAX];
-    json_error_t error;
-    size_t size;
     Reading reading = {.folder = folder, .message = message};
-    *folder = (LabFolder){.json = NULL};
-    if (!name_lab(folder, path, message))
-        return false;
-    snprintf(file, sizeof file, "%s/lab.json", folder->path);
-    char *text = input_read(AT_FDCWD, file, file, BYTES_MAX, &size, message);
-    if (!text)
-        return false;
-    Lab *lab = &folder->lab;
-    lab->hash = hash_text(14695981039346656037ULL, text);
-    folder->json = json_loadb(text, size, JSON_REJECT_DUPLICATES, &error);
-    free(text);
-    bool done =
-        folder->json != NULL || message_set(message, "%s:%d: %s", file, error.line, error.text);
-    done =
-        done && read_lab(&reading, folder->json) && check_lab(&reading) && add_solutions(&reading);
-    for (int i = 0; i < lab->solution_count; i++)
-        for (int k = 0; k < folder->solutions[i].count; k++)
-            lab->hash = hash_text(lab->hash, folder->solutions[i].texts[k].text);
-    if (!done)
-        lab_folder_close(folder);
-    return done;
-}
-
-void lab_folder_close(LabFolder *folder)
-{
-    for (int i = 0; i < LAB_MAX_SOLUTIONS; i++)
-        submission_files_close(&folder->solutions[i]);
-    json_decref(folder->json);
-    *folder = (LabFolder){.json = NULL};
-}
-
-const Lab *lab_open(const char *text, Message *message)
-{
-    static LabFolder folder;
-    struct stat status;
-    const Lab *known = strchr(text, '/') ? NULL : lab_find(text, NULL);
-    if (known || (stat(text, &status) != 0 && !strchr(text, '/')))
-        return known ? known : lab_find(text, message);
-    lab_folder_close(&folder);
-    return lab_folder_open(&folder, text, message) ? &folder.lab : NULL;
+    return read_lab(&reading, folder->json) && check_lab(&reading) && add_solutions(&reading) &&
+           check_parts(&reading);
 }

@@ -24,6 +24,12 @@ typedef struct LabFolder {
 bool lab_folder_open(LabFolder *folder, const char *path, Message *message);
 void lab_folder_close(LabFolder *folder);
 
+/* For lab_folder_open: from its JSON. */
+bool lab_json_read(LabFolder *folder, Message *message);
+
+/* "2026-11-20 23:59", in local time, as seconds since 1970. False: it is none. */
+bool lab_time_read(const char *text, long long *seconds);
+
 /* lab_find's, or the lab of a folder that has lab.json; NULL, with a message: there is none. The
  * last folder's is kept, for the program's whole life. */
 const Lab *lab_open(const char *text, Message *message);

@@ -5,6 +5,7 @@
 #include <stdarg.h>
 
 const char *const VERDICT_NAMES[] = {"error", "right", "wrong", "refused", "timeout", NULL};
+const char *const PART_NAMES[] = {"not judged", "right", "wrong", "late", NULL};
 
 void verdict_add_symptom(Verdict *verdict, const char *format, ...)
 {
@@ -29,9 +30,20 @@ void verdict_add_mistake(Verdict *verdict, const char *name, const char *sentenc
     mistake->sure = sure;
 }
 
-void verdict_refuse(Verdict *verdict, uint64_t seed, const Message *why)
+void verdict_begin(Verdict *verdict, const Lab *lab, uint64_t seed)
 {
-    *verdict = (Verdict){.kind = VERDICT_REFUSED, .seed = seed};
+    *verdict = (Verdict){.seed = seed, .most = lab->points.most};
+    for (int i = 0; i < lab->points.part_count; i++) {
+        VerdictPart *part = &verdict->parts[verdict->part_count++];
+        snprintf(part->name, sizeof part->name, "%s", lab->points.parts[i].name);
+        part->most = lab->points.parts[i].points;
+    }
+}
+
+void verdict_refuse(Verdict *verdict, const Lab *lab, uint64_t seed, const Message *why)
+{
+    verdict_begin(verdict, lab, seed);
+    verdict->kind = VERDICT_REFUSED;
     snprintf(verdict->message, sizeof verdict->message, "%.500s", why->text);
 }
 
@@ -43,10 +55,23 @@ static int passed(const Verdict *verdict)
     return count;
 }
 
+static double in_steps(const LabPoints *points, double sum)
+{
+    const double step = points->step > 0 ? points->step : 0.5;
+    return floor(sum / step + 1e-9) * step;
+}
+
 void verdict_score(Verdict *verdict, const Lab *lab)
 {
-    const LabPoints usual = {VERDICT_MAX_POINTS, 1, 8};
+    const LabPoints usual = {.most = VERDICT_MAX_POINTS, .drawn = 1, .scenes = 8};
     const LabPoints *points = lab->points.most > 0 ? &lab->points : &usual;
+    double sum = 0;
+    for (int i = 0; i < verdict->part_count; i++) {
+        VerdictPart *part = &verdict->parts[i];
+        part->state = verdict->kind == VERDICT_RIGHT ? PART_RIGHT : part->state;
+        part->points = part->state == PART_RIGHT ? part->most : 0;
+        sum += part->points;
+    }
     verdict->points = 0;
     verdict->most = points->most;
     if (verdict->kind == VERDICT_RIGHT)
@@ -56,7 +81,22 @@ void verdict_score(Verdict *verdict, const Lab *lab)
             points->drawn +
             (verdict->undefined
                  ? 0
-                 : floor(2.0 * points->scenes * passed(verdict) / verdict->probe_count) / 2);
+                 : in_steps(points, sum + points->scenes * passed(verdict) / verdict->probe_count));
+}
+
+void verdict_late(Verdict *verdict, const Lab *lab, int days)
+{
+    const LabPoints *points = &lab->points;
+    if (days < 1 || points->day_count == 0)
+        return;
+    const int day = days < points->day_count ? days : points->day_count;
+    const double left = verdict->points - points->most * points->percent[day - 1] / 100;
+    VerdictPart *part = &verdict->parts[verdict->part_count++];
+    *part = (VerdictPart){.points = in_steps(points, fmax(left, 0)) - verdict->points,
+                          .most = verdict->points,
+                          .state = PART_LATE};
+    snprintf(part->name, sizeof part->name, "day %d after the deadline", days);
+    verdict->points += part->points;
 }
 
 /* Text. */
@@ -71,6 +111,16 @@ static void print_mistakes(const Verdict *verdict, FILE *file)
         else
             fprintf(file, "  %.0f%% sure\n", 100 * mistake->sure);
         fprintf(file, "  %s\n  Look at %s.\n", mistake->sentence, mistake->look);
+    }
+}
+
+void verdict_parts(const Verdict *verdict, const char *before, const char *after, FILE *file)
+{
+    for (int i = 0; i < verdict->part_count; i++) {
+        const VerdictPart *part = &verdict->parts[i];
+        const char *state = part->state == PART_LATE ? "" : PART_NAMES[part->state];
+        fprintf(file, "%s%s: %s%s%g of %g points%s", before, part->name, state,
+                state[0] ? ", " : "", part->points, part->most, after);
     }
 }
 
@@ -99,6 +149,7 @@ void verdict_print(const Verdict *verdict, const Lab *lab, const char *pictures,
     print_mistakes(verdict, file);
     for (int i = 0; i < verdict->symptom_count; i++)
         fprintf(file, "  - %s\n", verdict->symptoms[i]);
+    verdict_parts(verdict, "  ", "\n", file);
     print_probes(verdict, file);
     if (verdict->cost.known)
         fprintf(file, "cost: error %.2f steps, %.2f of the time of the chapter's own program\n",

@@ -22,6 +22,7 @@ typedef enum VerdictKind {
 
 /* "error", "right", "wrong", "refused", "timeout". */
 extern const char *const VERDICT_NAMES[];
+extern const char *const PART_NAMES[]; /* "not judged", "right", "wrong", "late" */
 
 enum {
     VERDICT_MAX_POINTS = 10,   /* of the labs that come with the programs */
@@ -51,6 +52,14 @@ typedef struct VerdictProbe {
     bool passed;
 } VerdictProbe;
 
+/* A part of the points (lab.h), or, less than 0, what is taken of `most`. */
+typedef enum PartState { PART_UNSEEN, PART_RIGHT, PART_WRONG, PART_LATE } PartState;
+typedef struct VerdictPart {
+    char name[64];
+    double points, most;
+    PartState state;
+} VerdictPart;
+
 /* The cost of lab 10's picture. */
 typedef struct VerdictCost {
     bool known;
@@ -63,7 +72,9 @@ typedef struct VerdictCost {
 typedef struct Verdict {
     VerdictKind kind;
     uint64_t seed;
-    double points, most;                 /* `most` 0: as verdict_most has it */
+    double points, most; /* `most` 0: as verdict_most has it */
+    VerdictPart parts[LAB_MAX_PARTS + 1];
+    int part_count;
     char message[VERDICT_SENTENCE_SIZE]; /* one sentence */
     char details[VERDICT_DETAILS_SIZE];  /* more lines: from driver or compiler */
     VerdictMistake mistakes[VERDICT_MAX_MISTAKES];
@@ -84,8 +95,11 @@ void verdict_add_symptom(Verdict *verdict, const char *format, ...)
 void verdict_add_mistake(Verdict *verdict, const char *name, const char *sentence, const char *look,
                          double sure);
 
+/* One that says nothing yet: no points of as many as the lab has. */
+void verdict_begin(Verdict *verdict, const Lab *lab, uint64_t seed);
+
 /* The verdict on a submission whose files cannot be judged. */
-void verdict_refuse(Verdict *verdict, uint64_t seed, const Message *why);
+void verdict_refuse(Verdict *verdict, const Lab *lab, uint64_t seed, const Message *why);
 
 /* How many points there are. */
 static inline double verdict_most(const Verdict *verdict)
@@ -94,8 +108,15 @@ static inline double verdict_most(const Verdict *verdict)
 }
 
 /* Sets the points, unless the lab has its own: 10 if right; otherwise 1 for compiling and drawing,
- * and up to 8 for the share of scenes passed, in halves. Lab 10: see budget_score. */
+ * and up to 8 for the share of scenes passed, in halves; and those of the parts that are right. Lab
+ * 10: see budget_score. */
 void verdict_score(Verdict *verdict, const Lab *lab);
+
+/* Takes what the lab's rule takes for so many days. */
+void verdict_late(Verdict *verdict, const Lab *lab, int days);
+
+/* Each as "ambient: right, 2 of 2 points". */
+void verdict_parts(const Verdict *verdict, const char *before, const char *after, FILE *file);
 
 /* For a terminal. */
 void verdict_print(const Verdict *verdict, const Lab *lab, const char *pictures, FILE *file);

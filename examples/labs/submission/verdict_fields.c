@@ -15,11 +15,12 @@ static const char *const SETS[] = {"seed", "known", NULL};
     {                                                                                              \
         .name = #member, .kind = FIELD_NUMBER, AT(type, member), .min = low, .max = high           \
     }
-#define LIST(name_, list, number, fields)                                                          \
+#define LIST(name_, list, number, fields, may_lack)                                                \
     {                                                                                              \
         .name = name_, .kind = FIELD_LIST, AT(Verdict, list),                                      \
         .max = (double)(SIZE(Verdict, list) / SIZE(Verdict, list[0])), .items = fields,            \
-        .item_size = SIZE(Verdict, list[0]), .count = offsetof(Verdict, number)                    \
+        .item_size = SIZE(Verdict, list[0]), .count = offsetof(Verdict, number),                   \
+        .optional = may_lack                                                                       \
     }
 
 static const Field MISTAKE[] = {
@@ -44,14 +45,23 @@ static const Field PROBE[] = {
     FIELD_END,
 };
 
+static const Field PART[] = {
+    TEXT(VerdictPart, name),
+    NUMBER(VerdictPart, points, -VERDICT_POINTS_END, VERDICT_POINTS_END),
+    NUMBER(VerdictPart, most, 0, VERDICT_POINTS_END),
+    {.name = "state", .kind = FIELD_CHOICE, AT(VerdictPart, state), .choices = PART_NAMES},
+    FIELD_END,
+};
+
 const Field VERDICT_FIELDS[] = {
     NUMBER(Verdict, points, 0, VERDICT_POINTS_END),
+    LIST("parts", parts, part_count, PART, true),
     {.name = "verdict", .kind = FIELD_CHOICE, AT(Verdict, kind), .choices = VERDICT_NAMES},
     TEXT(Verdict, message),
     {.name = "details", .kind = FIELD_LINES, AT(Verdict, details), .max = VERDICT_DETAILS_SIZE},
-    LIST("mistakes", mistakes, mistake_count, MISTAKE),
-    LIST("symptoms", symptoms, symptom_count, SYMPTOM),
-    LIST("probes", probes, probe_count, PROBE),
+    LIST("mistakes", mistakes, mistake_count, MISTAKE, false),
+    LIST("symptoms", symptoms, symptom_count, SYMPTOM, false),
+    LIST("probes", probes, probe_count, PROBE, false),
     NUMBER(Verdict, seconds, 0, 1e9),
     FIELD_END,
 };
@@ -103,7 +113,8 @@ static void put_field(JsonWriter *json, const Field *field, const char *record)
 static void put_fields(JsonWriter *json, const Field *fields, const void *record)
 {
     for (const Field *field = fields; (int)field->kind >= 0; field++)
-        put_field(json, field, record);
+        if (!field->optional || *(const int *)((const char *)record + field->count) > 0)
+            put_field(json, field, record);
 }
 
 static void put_cost(JsonWriter *json, const VerdictCost *cost)

@@ -29,6 +29,7 @@ typedef struct Field {
     const char *const *choices; /* ends with NULL */
     const struct Field *items;
     size_t item_size, count;
+    bool optional; /* an empty list is left out */
 } Field;
 
 /* Of Verdict: all but its seed, picture and cost. Ends with a `kind` below 0. */

@@ -9,13 +9,6 @@
 #include <math.h>
 #include <string.h>
 
-/* U+202A to U+202E and U+2066 to U+2069, which reorder the characters of a line. */
-static bool turns_direction(const unsigned char *at)
-{
-    return at[0] == 0xE2 && ((at[1] == 0x80 && at[2] >= 0xAA && at[2] <= 0xAE) ||
-                             (at[1] == 0x81 && at[2] >= 0xA6 && at[2] <= 0xA9));
-}
-
 void verdict_clean(char *text, size_t size, const char *from, bool lines)
 {
     size_t length = 0;
@@ -23,7 +16,7 @@ void verdict_clean(char *text, size_t size, const char *from, bool lines)
     while (*at) {
         const int character = text_character((const char *)at);
         const size_t count = character ? (size_t)character : 1;
-        if (turns_direction(at)) {
+        if (text_turns_direction((const char *)at)) {
             at += count;
             continue;
         }
@@ -133,7 +126,7 @@ static bool read_fields(const json_t *object, const Field *fields, char *record,
 {
     for (const Field *field = fields; (int)field->kind >= 0; field++) {
         const json_t *value = field->name ? json_object_get(object, field->name) : object;
-        if (!read_field(value, field, record, message))
+        if (!(field->optional && !value) && !read_field(value, field, record, message))
             return false;
     }
     return true;

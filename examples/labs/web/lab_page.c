@@ -424,7 +424,7 @@ const char *page_check(double seed)
     Message why = {0};
     bool done = submission_files_open(&files, page.lab, FOLDER, &why);
     if (!done)
-        verdict_refuse(&verdict, options.seed, &why);
+        verdict_refuse(&verdict, page.lab, options.seed, &why);
     done = !done || judge(&options, &verdict, &page.message);
     submission_files_close(&files);
     if (!done)
