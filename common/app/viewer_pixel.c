@@ -65,6 +65,13 @@ static void forget(ViewerPixel *pixel)
     image_close(&pixel->image);
 }
 
+static void forget_seen(ViewerPixel *pixel)
+{
+    probing_close(&pixel->seen);
+    pixel->seen = (Probing){.renderer = {.example = NULL}};
+    pixel->sees = false;
+}
+
 /* The verdict first. */
 static char *arranged(char *text)
 {
@@ -115,27 +122,35 @@ static void find_shown(ViewerPixel *pixel, const Probing *probing, const ProbePl
     pixel->legend = output_text_close(&legend);
 }
 
-/* What is to be said, in the renderer's place, because only one is open at a time. */
-static void explain(Viewer *viewer, const int at[2], Message *why)
+static const ProbePlugin *find_plugin(const Viewer *viewer, Message *why)
+{
+    const bool one = viewer->options.canvas.samples <= 1;
+    if (!one)
+        message_set(why, "a pixel of several samples has no one colour: set samples to 0");
+    return one ? probing_plugin(why) : NULL;
+}
+
+/* In the renderer's place, because only one is open at a time; `explained`: at that pixel. */
+static bool probe(Viewer *viewer, Probing *probing, const int *explained, Message *why)
 {
     ViewerPixel *pixel = &viewer->pixel;
     Renderer *renderer = &viewer->reload.renderer;
-    Probing probing = {.renderer = {.example = NULL}};
-    const ProbePlugin *plugin = probing_plugin(why);
-    if (viewer->options.canvas.samples > 1)
-        message_set(why, "a pixel of several samples has no one colour: set samples to 0");
-    if (!plugin || viewer->options.canvas.samples > 1)
-        return;
+    const ProbePlugin *plugin = find_plugin(viewer, why);
+    if (!plugin)
+        return false;
     renderer_close(renderer);
-    if (probing_open(&probing, viewer->example, &viewer->options, viewer->canvas, why)) {
-        pixel->text = arranged(probing_pixel(&probing, plugin, at, false, why));
-        find_names(pixel, &probing, plugin);
+    const bool opened =
+        probing_open(probing, viewer->example, &viewer->options, viewer->canvas, why);
+    if (opened && explained) {
+        pixel->text = arranged(probing_pixel(probing, plugin, explained, false, why));
+        find_names(pixel, probing, plugin);
         if (pixel->shown[0])
-            find_shown(pixel, &probing, plugin);
+            find_shown(pixel, probing, plugin);
     }
-    probing_close(&probing);
+    renderer_close(&probing->renderer);
     if (!renderer_open(renderer, viewer->example, viewer->canvas, viewer_request(viewer), why))
         shader_reload_renew(&viewer->reload);
+    return opened;
 }
 
 void viewer_pixel_update(Viewer *viewer)
@@ -143,6 +158,7 @@ void viewer_pixel_update(Viewer *viewer)
     ViewerPixel *pixel = &viewer->pixel;
     const Canvas *canvas = viewer->canvas;
     const double start = clock_now();
+    Probing probing = {.renderer = {.example = NULL}};
     Message why = {.located = false};
     if (!viewer_pixel_due(viewer))
         return;
@@ -150,7 +166,8 @@ void viewer_pixel_update(Viewer *viewer)
     forget(pixel);
     pixel->of = viewer_panel_picture(&viewer->reload.renderer, viewer_request(viewer));
     pixel->renewals = viewer->panel.renewals;
-    explain(viewer, at, &why);
+    probe(viewer, &probing, at, &why);
+    probing_close(&probing);
     if (!pixel->text)
         pixel->text = memory_text(why.text);
     if (!viewer->panel.panel || viewer->options.verbose)
@@ -162,18 +179,42 @@ void viewer_pixel_update(Viewer *viewer)
         fprintf(stderr, "explaining the pixel took %.1f ms\n", 1e3 * (pixel->time - start));
 }
 
-/* Its colour, and while time stands still the exact one, where that is known without running
- * shaders. */
+/* By the scene, or by running the shaders of the picture, which is captured once. */
+static bool find_exact(Viewer *viewer, const int at[2], ExactPixel *exact)
+{
+    ViewerPixel *pixel = &viewer->pixel;
+    Renderer *renderer = &viewer->reload.renderer;
+    Message why = {.located = false};
+    double color[4];
+    int draw;
+    if (renderer->kind->exact)
+        return renderer->kind->exact(renderer, viewer_request(viewer), at, exact);
+    const ProbePlugin *plugin = find_plugin(viewer, &why);
+    if (plugin && !pixel->sees)
+        pixel->sees = probe(viewer, &pixel->seen, NULL, &why);
+    const ProbeQuestion question = {.capture = &pixel->seen.capture,
+                                    .driver = &pixel->seen.driver,
+                                    .column = at[0],
+                                    .row = at[1],
+                                    .height = viewer->canvas->height};
+    if (!pixel->sees || !plugin->exact(&question, color, &draw))
+        return false;
+    for (int i = 0; i < 3; i++)
+        exact->color[i] = (float)color[i];
+    exact->equation = NULL;
+    snprintf(exact->object, sizeof exact->object, "object %d", draw + 1);
+    return true;
+}
+
+/* Its colour, and while time stands still the exact one. */
 static void write_line(Viewer *viewer, const int at[2], const unsigned char drawn[3])
 {
-    Renderer *renderer = &viewer->reload.renderer;
     char *line = viewer->pixel.line;
     ExactPixel exact;
     double most = 0;
     const int length =
         snprintf(line, PIXEL_LINE, "%d,%d: %d, %d, %d", at[0], at[1], drawn[0], drawn[1], drawn[2]);
-    if (!viewer->paused || !renderer->kind->exact ||
-        !renderer->kind->exact(renderer, viewer_request(viewer), at, &exact))
+    if (!viewer->paused || !find_exact(viewer, at, &exact))
         return;
     free(exact.equation);
     double steps[3];
@@ -202,11 +243,12 @@ void viewer_pixel_point(Viewer *viewer)
         return;
     const PanelPicture of = viewer_panel_picture(&viewer->reload.renderer, viewer_request(viewer));
     const bool same = viewer->paused == pixel->line_paused && pixel->line[0] &&
-                      memcmp(at, pixel->line_at, sizeof at) == 0 &&
                       pixel->line_renewals == viewer->panel.renewals &&
                       !viewer_panel_other(&pixel->line_of, &viewer->reload.renderer, &of.request);
-    if (same)
+    if (same && memcmp(at, pixel->line_at, sizeof at) == 0)
         return;
+    if (!same)
+        forget_seen(pixel);
     memcpy(pixel->line_at, at, sizeof at);
     pixel->line_of = of;
     pixel->line_renewals = viewer->panel.renewals;
@@ -256,5 +298,6 @@ const Image *viewer_pixel_image(const Viewer *viewer)
 void viewer_pixel_close(ViewerPixel *pixel)
 {
     forget(pixel);
+    forget_seen(pixel);
     *pixel = (ViewerPixel){.open = false};
 }

@@ -137,6 +137,8 @@ typedef struct ViewerPixel {
     int line_at[2], line_renewals;
     bool line_paused;
     PanelPicture line_of;
+    Probing seen; /* that picture, if only running its shaders tells what is exact */
+    bool sees;
     bool open;             /* one was clicked: */
     double at[2];          /* there, of the picture's width and height */
     char title[64], *text; /* what is said of it */

@@ -45,6 +45,33 @@ static void find_magnifier(Probe *probe)
     }
 }
 
+/* Of the text, at the pixel instead of between the corners. */
+static const GlslRun *run_at_pixel(Raster *raster, const RasterPixel *pixel, double color[4])
+{
+    raster_at_pixel(raster, true);
+    const GlslRun *run = raster_run(raster, pixel, &GLSL_EXACT, INT_MAX, color);
+    raster_at_pixel(raster, false);
+    return run;
+}
+
+bool probe_exact(const ProbeQuestion *question, double color[4], int *draw)
+{
+    Message message = {0};
+    Raster *raster = NULL;
+    RasterPixel pixel = {.draw = -1};
+    bool known = raster_open(&raster, question->capture, question->driver, &message);
+    if (known)
+        raster_find(raster, question->column, question->height - 1 - question->row, &pixel);
+    *draw = pixel.draw;
+    known = known && pixel.draw >= 0;
+    if (known) {
+        const GlslRun *run = run_at_pixel(raster, &pixel, color);
+        known = !run->stopped && !run->discarded;
+    }
+    raster_close(raster);
+    return known;
+}
+
 static void judge(Probe *probe)
 {
     const ExactPixel *exact = probe->question.exact;
@@ -52,11 +79,8 @@ static void judge(Probe *probe)
     probe->judged = true;
     for (int i = 0; i < 3 && exact; i++)
         picture[i] = (double)exact->color[i];
-    if (!exact) {
-        raster_at_pixel(probe->raster, true);
-        raster_run(probe->raster, &probe->pixel, &GLSL_EXACT, INT_MAX, picture);
-        raster_at_pixel(probe->raster, false);
-    }
+    if (!exact)
+        run_at_pixel(probe->raster, &probe->pixel, picture);
     probe->whole = origin_apart(probe->driver.color, picture);
     probe->formula = origin_apart(probe->exact.color, picture);
     probe->rounding = origin_apart(probe->driver.color, probe->exact.color);

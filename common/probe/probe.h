@@ -48,6 +48,10 @@ typedef struct Probe {
 bool probe_open(Probe *probe, const ProbeQuestion *question, Message *message);
 void probe_close(Probe *probe); /* a zeroed one is fine */
 
+/* What the program's own equation gives at the pixel itself, exactly. False: the background, or
+ * that is unknown. */
+bool probe_exact(const ProbeQuestion *question, double color[4], int *draw);
+
 /* Says which samplers have no texture that can be read: the driver does not tell of all. False:
  * what is computed is not the picture's. */
 bool probe_samplers(FILE *file, const CaptureDraw *draw);

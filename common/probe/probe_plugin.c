@@ -35,4 +35,4 @@ static ShowResult show(const Capture *capture, const GlslArithmetic *driver, con
 }
 
 __attribute__((visibility("default")))
-const ProbePlugin probe_plugin = {version, tell, show, show_names};
+const ProbePlugin probe_plugin = {version, tell, show, show_names, probe_exact};

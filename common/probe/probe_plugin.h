@@ -24,6 +24,7 @@ typedef struct ProbePlugin {
     /* What show_names writes. */
     bool (*names)(const Capture *capture, const GlslArithmetic *driver, int stage, FILE *file,
                   Message *message);
+    bool (*exact)(const ProbeQuestion *question, double color[4], int *draw); /* probe_exact */
 } ProbePlugin;
 
 #endif

@@ -120,12 +120,12 @@ const Pixel = (() => {
     }
 
     function line(said) {
-        const drawn = said.drawn.map(x => Math.round(255 * x)), exact = said.exact_picture || said.exact;
+        const drawn = said.drawn.map(x => Math.round(255 * x)), exact = said.exact_picture || said.at_pixel || said.exact;
         const start = said.column + "," + said.row + ": " + drawn.join(", ");
         if (!exact)
             return start + ", the background";
         const apart = Math.max(...drawn.map((x, i) => Math.abs(x - 255 * Math.min(1, Math.max(0, exact[i])))));
-        return start + (said.object ? ", " + said.object + "; exactly " : "; exactly, the same text: ") + steps(exact) + "; " +
+        return start + (said.object ? ", " + said.object : "") + "; exactly " + steps(exact) + "; " +
             apart.toFixed(1) + " steps of 1/255 apart";
     }
 

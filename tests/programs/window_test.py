@@ -977,16 +977,23 @@ class Pixels(Case):
             shown.ends(0, None)
 
     def test_the_title_tells_of_the_pixel_under_the_pointer(self):
-        shown = self.show("-s", "400x400", program=SCENE, paused=True)
-        picture = shown.save()
-        for x, y in (180, 220), (185, 225), (3, 5):
-            self.server.xdotool("mousemove", x, y)
-            drawn = "%d, %d, %d" % picture.at(x, y)
-            wait_for(lambda: re.fullmatch(rf"{SCENE}, {x},{y}: {drawn}; (object \d|the background), "
-                                          r"exactly [\d., ]+: \d+\.\d steps off, paused",
-                                          shown.title()), drawn)
-        self.server.xdotool("mousemove", *AWAY)
-        wait_for(lambda: shown.title() == f"{SCENE}, paused", "no pixel")
+        for program, background in (SCENE, "; the background, exactly .*"), ("PointLightedCube", ""):
+            shown = self.show("-s", "400x400", program=program, paused=True)
+            picture = shown.save()
+            for x, y in (180, 220), (185, 225), (3, 5):
+                self.server.xdotool("mousemove", x, y)
+                drawn = "%d, %d, %d" % picture.at(x, y)
+                told = r"; object \d, exactly ([\d.]+), .*: (\d+\.\d) steps off" if x > 3 else background
+                line = rf"{program}, {x},{y}: {drawn}{told}, paused"
+                said = wait_for(lambda: re.fullmatch(line, shown.title()), drawn)
+                if program != SCENE and x > 3:  # --probe's, by the equation at the pixel
+                    probed = self.good("-s", "400x400", "--probe", f"{x},{y}", program=program).decode()
+                    exact, = re.findall(r"at the pixel itself: ([\d.]+)", probed)
+                    self.assertAlmostEqual(float(said[1]), float(exact), delta=0.06)
+            self.server.xdotool("mousemove", *AWAY)
+            wait_for(lambda: shown.title() == f"{program}, paused", "no pixel")
+            shown.key("Escape")
+            shown.ends(0, None)
 
 
 class Ends(Case):
