@@ -202,7 +202,7 @@ static bool find_exact(Viewer *viewer, const int at[2], ExactPixel *exact)
     for (int i = 0; i < 3; i++)
         exact->color[i] = (float)color[i];
     exact->equation = NULL;
-    snprintf(exact->object, sizeof exact->object, "object %d", draw + 1);
+    snprintf(exact->object, sizeof exact->object, "object %d", draw);
     return true;
 }
 

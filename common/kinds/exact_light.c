@@ -39,6 +39,11 @@ static Vec3 put_light(FILE *file, const Explained *at, const ExplainLight *lit, 
     const Light *light = lit->light;
     const Material *material = &at->material;
     char rest[100];
+    if (lit->share <= 0) {
+        fprintf(file, "light %d, 0 of it arrives: %s\n", number,
+                lit->outside ? "outside its cone" : "too far away");
+        return (Vec3){0, 0, 0};
+    }
     fprintf(file, "light %d, %.6g of it arrives%s:\n", number, lit->share,
             lit->hidden ? "; in shadow, which leaves the ambient term" : "");
     put_term(file, "  ambient", (Vec3[]){light->ambient, material->ambient}, "", lit->ambient);
@@ -53,7 +58,7 @@ static Vec3 put_light(FILE *file, const Explained *at, const ExplainLight *lit, 
     return vec3_scale(sum, lit->share);
 }
 
-static char *equation(const Explained *at, const Scene *scene)
+static char *equation(const Explained *at, const Scene *scene, bool unlit)
 {
     OutputText text;
     Vec3 sum = at->base;
@@ -63,8 +68,12 @@ static char *equation(const Explained *at, const Scene *scene)
         put_color(file, "emission: ", at->material.emission);
         fputc('\n', file);
     }
-    put_term(file, "global ambient", (Vec3[]){scene->global_ambient, at->material.ambient}, "",
-             vec3_subtract(at->base, at->material.emission));
+    if (unlit) {
+        put_color(file, "diffuse colour, without lighting: ", at->base);
+        fputc('\n', file);
+    } else
+        put_term(file, "global ambient", (Vec3[]){scene->global_ambient, at->material.ambient}, "",
+                 vec3_subtract(at->base, at->material.emission));
     for (int i = 0; i < at->count; i++)
         sum = vec3_add(
             sum, put_light(file, at, &at->lights[i], (int)(at->lights[i].light - scene->lights)));
@@ -96,7 +105,7 @@ static void add_direction(ExactPixel *exact, const Pointer *pointer, const char 
 }
 
 void exact_light_tell(ExactPixel *exact, const Trace *trace, const Scene *scene, const int place[4],
-                      const double at[2])
+                      const double at[2], bool unlit)
 {
     Explained said;
     Sample sample;
@@ -110,7 +119,7 @@ void exact_light_tell(ExactPixel *exact, const Trace *trace, const Scene *scene,
         const double fovy = scene_fovy(&scene->camera, (double)place[2] / place[3]);
         const Pointer pointer = {trace, &said, 0.4 * tan(fovy / 2 * RADIANS) * said.depth, place[0],
                                  place[1]};
-        exact->equation = equation(&said, scene);
+        exact->equation = equation(&said, scene, unlit);
         add_direction(exact, &pointer, "N", -1, said.normal);
         add_direction(exact, &pointer, "V", -1, said.viewer);
         for (int i = 0; i < said.count; i++) {

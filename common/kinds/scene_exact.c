@@ -77,7 +77,7 @@ bool scene_exact_pixel(Renderer *renderer, const DrawRequest *request, const int
         const double at[2] = {pixel[0] - place[0] + 0.5, pixel[1] - place[1] + 0.5};
         if (!view->trace)
             return false;
-        exact_light_tell(exact, view->trace, &view->copy.scene, place, at);
+        exact_light_tell(exact, view->trace, &view->copy.scene, place, at, request->terms.unlit);
         return true;
     }
     return false;

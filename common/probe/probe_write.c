@@ -414,8 +414,6 @@ char *probe_json(const Probe *probe)
     if (probe->pixel.draw >= 0) {
         write_numbers(&json, "computed", probe->driver.color, 4);
         write_numbers(&json, "exact", probe->exact.color, 4);
-        if (probe->judged && !question->exact)
-            write_numbers(&json, "at_pixel", probe->picture, 3);
         write_trail(&json, probe);
         json_write_list(&json, "vertices");
         for (int c = 0; c < 3; c++)

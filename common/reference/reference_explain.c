@@ -30,7 +30,8 @@ static ExplainLight explain_light(const TracePoint *point, Vec3 viewer, int numb
     white.light = &light;
     whole.lights = &white;
     said.share = lit(&whole, &point->point, (Material){.ambient = WHITE}, 0).x;
-    if (!shade_light(shading, &point->point, number).in_cone)
+    said.outside = !shade_light(shading, &point->point, number).in_cone;
+    if (said.outside)
         said.share = 0;
     const double unit = said.share > 0 ? 1 / said.share : 0;
     said.ambient = vec3_scale(

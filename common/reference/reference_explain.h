@@ -15,7 +15,7 @@ typedef struct ExplainLight {
     Vec3 direction, mirror; /* unit: L; R, or H where the reflection is Blinn's */
     double share;           /* what arrives by attenuation and cone */
     double n_dot_l, cosine; /* cosine: R.V or N.H; neither below 0, unless dots are signed */
-    bool hidden;            /* by a shadow */
+    bool hidden, outside;   /* in a shadow; of the cone */
     Vec3 ambient, diffuse, specular;
 } ExplainLight;
 

@@ -120,7 +120,7 @@ const Pixel = (() => {
     }
 
     function line(said) {
-        const drawn = said.drawn.map(x => Math.round(255 * x)), exact = said.exact_picture || said.at_pixel || said.exact;
+        const drawn = said.drawn.map(x => Math.round(255 * x)), exact = said.exact_picture || said.verdict?.against || said.exact;
         const start = said.column + "," + said.row + ": " + drawn.join(", ");
         if (!exact)
             return start + ", the background";

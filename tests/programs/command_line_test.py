@@ -851,6 +851,42 @@ class Outputs(Case):
         text = self.good("--probe", "200,200", program="PointLightedCube").decode()
         self.assertRegex(text, r"\ncomputed: .*; exactly, the same text: .*; at the pixel itself: [0-9.]+, [0-9.]+, [0-9.]+\n")
 
+    def test_the_terms_that_probe_tells_make_their_numbers_and_the_sum(self):
+        def color(text):
+            numbers = [float(number) for number in text.split(", ")]
+            return numbers * 3 if len(numbers) == 1 else numbers
+        term = re.compile(r"(?m)^( *)(.*): \(([^)]*)\) \* \(([^)]*)\)(?: \* N\.L ([\d.e-]+))?"
+                          r"(?: \* \((?:R\.V|N\.H) ([\d.e-]+)\)\^([\d.]+)(, behind the surface)?)? = (.*)")
+        for program, place, *options in (
+                ("ShadingModels", "200,150", "--emission", ".1,.2,0", "--global-ambient", ".2,.3,.1"),
+                ("ShadingModels", "260,150", "--reflection", "blinn-phong"), ("FourLights", "200,180"),
+                ("SpotLight", "224,299"), ("SpotLight", "209,296", "--cutoff", "20"),
+                ("LightTypes", "518,437"), ("Shadows", "221,317"), ("Shadows", "250,300"),
+                ("ShadingModels", "200,200", "--lighting", "off")):
+            text = self.good("--probe", place, *options, program=program).decode()
+            equation, = re.findall(r"(?s)^exact picture: [^\n]*\n(.*)^computed:", text, re.M)
+            total = [0, 0, 0]
+            for line in equation.splitlines():
+                plain = re.fullmatch("(emission|diffuse colour, without lighting): (.*)", line)
+                share = re.fullmatch(r"light \d, ([\d.e-]+) of it arrives:", line)
+                found = term.fullmatch(line)
+                if share:
+                    arrives = float(share[1])
+                elif plain:
+                    total = [a + b for a, b in zip(total, color(plain[2]))]
+                elif found:
+                    indent, _, light, surface, n_dot_l, cosine, exponent, behind, result = found.groups()
+                    factor = float(n_dot_l or 1) * float(cosine or 1) ** float(exponent or 1) * (not behind)
+                    for i, number in enumerate(color(result)):
+                        self.assertAlmostEqual(color(light)[i] * color(surface)[i] * factor, number,
+                                               delta=1e-4, msg=line)
+                        total[i] += (arrives if indent else 1) * number
+                else:
+                    self.assertRegex(line, r"^(sum: |light \d, 0 of it arrives: outside its cone$)")
+            for told, made in zip(color(re.search("(?m)^sum: (.*)", equation)[1]), total):
+                self.assertAlmostEqual(told, made, delta=1e-4, msg=text)
+        self.assertNotIn("ambient", equation)  # of what is not lit
+
     def test_output_that_does_not_arrive_is_a_failure(self):
         for arguments in (("--help",), ("--version",), ("-o", "-"), ("--print-shader",),
                           ("--doctor",)):

@@ -314,7 +314,7 @@ static bool tell_exact(int column, int row, ExactPixel *exact)
     if (!page.trace && !trace_open(&page.trace, &page.right_scene, &options, NULL))
         return false;
     exact_light_tell(exact, page.trace, &page.right_scene, (int[]){0, 0, SIZE, SIZE},
-                     (double[]){column + 0.5, row + 0.5});
+                     (double[]){column + 0.5, row + 0.5}, false);
     if (!page.lab->solution_count)
         return true;
     if (exact->equation)
