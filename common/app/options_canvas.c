@@ -21,23 +21,6 @@ static void end_without_display(const char *program)
     _exit(EXIT_FAILED);
 }
 
-static void describe_canvas(const Canvas *canvas, const CanvasOptions *wanted)
-{
-    fprintf(stderr, "backend: %s, %s\nrenderer: %s, %s\n", canvas->backend->name, canvas->platform,
-            canvas->renderer, canvas->version);
-    fprintf(stderr, "canvas: %dx%d, RGBA %d %d %d %d, depth %d", canvas->width, canvas->height,
-            canvas->red_bits, canvas->green_bits, canvas->blue_bits, canvas->alpha_bits,
-            canvas->depth_bits);
-    if (wanted->real && !canvas->real)
-        fprintf(stderr, ", not float: the driver cannot draw to it");
-    if (canvas->samples)
-        fprintf(stderr, "; %d samples for each pixel, resolved by the driver", canvas->samples);
-    else if (canvas->supersample > 1)
-        fprintf(stderr, "; %dx%d supersampling, averaged here", canvas->supersample,
-                canvas->supersample);
-    fprintf(stderr, "\n");
-}
-
 bool options_open_canvas(Canvas *canvas, const Options *options, const char *output,
                          Message *message)
 {
@@ -61,7 +44,19 @@ bool options_open_canvas(Canvas *canvas, const Options *options, const char *out
                                   : "");
     }
     if (options->verbose) {
-        describe_canvas(canvas, &wanted);
+        fprintf(stderr, "backend: %s, %s\nrenderer: %s, %s\n", canvas->backend->name,
+                canvas->platform, canvas->renderer, canvas->version);
+        fprintf(stderr, "canvas: %dx%d, RGBA %d %d %d %d, depth %d", canvas->width, canvas->height,
+                canvas->red_bits, canvas->green_bits, canvas->blue_bits, canvas->alpha_bits,
+                canvas->depth_bits);
+        if (wanted.real && !canvas->real)
+            fprintf(stderr, ", not float: the driver cannot draw to it");
+        if (canvas->samples)
+            fprintf(stderr, "; %d samples for each pixel, resolved by the driver", canvas->samples);
+        else if (canvas->supersample > 1)
+            fprintf(stderr, "; %dx%d supersampling, averaged here", canvas->supersample,
+                    canvas->supersample);
+        fprintf(stderr, "\n");
         fprintf(stderr, "precision of fragment shaders: %s\nopening took %.1f ms\n",
                 options->shaders.precision ? options->shaders.precision : "as in the files",
                 1e3 * (clock_now() - start));

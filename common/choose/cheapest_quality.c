@@ -107,11 +107,6 @@ void cheapest_quality_close(CheapestQuality *cheapest)
     *cheapest = (CheapestQuality){.objects = NULL};
 }
 
-static int bits_of(uint32_t bits)
-{
-    return __builtin_popcount(bits);
-}
-
 /* What was simplified: "object 0: 24 divisions, lit per vertex, viewer at infinity". */
 static void write_simplified(const CheapestQuality *cheapest, const Scene *scene, FILE *file)
 {
@@ -138,9 +133,10 @@ static void write_simplified(const CheapestQuality *cheapest, const Scene *scene
             {quality->distant_viewer && !plain.distant_viewer, "viewer at infinity", 0},
             {quality->skip_renormalization && !plain.skip_renormalization,
              "normals as interpolated", 0},
-            {quality->far_lights != 0, "at infinity", bits_of(quality->far_lights)},
-            {quality->matte_lights != 0, "without highlight", bits_of(quality->matte_lights)},
-            {quality->dark_lights != 0, "off", bits_of(quality->dark_lights)},
+            {quality->far_lights != 0, "at infinity", __builtin_popcount(quality->far_lights)},
+            {quality->matte_lights != 0, "without highlight",
+             __builtin_popcount(quality->matte_lights)},
+            {quality->dark_lights != 0, "off", __builtin_popcount(quality->dark_lights)},
         };
         for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {
             if (!all[k].there)

@@ -148,24 +148,6 @@ static bool choose_samples(Canvas *canvas, int samples, Message *message)
     return true;
 }
 
-static bool check_bits(Canvas *canvas, Message *message)
-{
-    glGetIntegerv(GL_RED_BITS, &canvas->red_bits);
-    glGetIntegerv(GL_GREEN_BITS, &canvas->green_bits);
-    glGetIntegerv(GL_BLUE_BITS, &canvas->blue_bits);
-    glGetIntegerv(GL_ALPHA_BITS, &canvas->alpha_bits);
-    glGetIntegerv(GL_DEPTH_BITS, &canvas->depth_bits);
-    const int bits = canvas->real ? 32 : 8;
-    if (canvas->red_bits != bits || canvas->green_bits != bits || canvas->blue_bits != bits ||
-        canvas->alpha_bits != bits || canvas->depth_bits < 24)
-        return message_set(message,
-                           "canvas: asked for RGBA %d %d %d %d and depth 24, the driver gave %d %d "
-                           "%d %d and %d",
-                           bits, bits, bits, bits, canvas->red_bits, canvas->green_bits,
-                           canvas->blue_bits, canvas->alpha_bits, canvas->depth_bits);
-    return true;
-}
-
 static bool make_framebuffers(Canvas *canvas, Message *message)
 {
     const int width = canvas->width * canvas->supersample;
@@ -188,7 +170,20 @@ static bool make_framebuffers(Canvas *canvas, Message *message)
         return false;
     if (canvas->samples > 0)
         glGetIntegerv(GL_SAMPLES, &canvas->samples);
-    return check_bits(canvas, message);
+    glGetIntegerv(GL_RED_BITS, &canvas->red_bits);
+    glGetIntegerv(GL_GREEN_BITS, &canvas->green_bits);
+    glGetIntegerv(GL_BLUE_BITS, &canvas->blue_bits);
+    glGetIntegerv(GL_ALPHA_BITS, &canvas->alpha_bits);
+    glGetIntegerv(GL_DEPTH_BITS, &canvas->depth_bits);
+    const int bits = canvas->real ? 32 : 8;
+    if (canvas->red_bits != bits || canvas->green_bits != bits || canvas->blue_bits != bits ||
+        canvas->alpha_bits != bits || canvas->depth_bits < 24)
+        return message_set(message,
+                           "canvas: asked for RGBA %d %d %d %d and depth 24, the driver gave %d %d "
+                           "%d %d and %d",
+                           bits, bits, bits, bits, canvas->red_bits, canvas->green_bits,
+                           canvas->blue_bits, canvas->alpha_bits, canvas->depth_bits);
+    return true;
 }
 
 /* In the current context. */

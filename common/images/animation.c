@@ -143,20 +143,6 @@ static bool fits_ffmpeg(int width, int height)
     return (8 * (int64_t)width + 8 * 128) * ((int64_t)height + 128) < INT_MAX;
 }
 
-static bool check_size(const Format *format, int width, int height, Message *message)
-{
-    const int max = format->max_side;
-    if (max > 0 && (width > max || height > max))
-        return message_set(message, "size %dx%d: %s has at most %d pixels a side", width, height,
-                           format->name, max);
-    if (format->writer == WRITER_FFMPEG && !fits_ffmpeg(width, height))
-        return message_set(message,
-                           "size %dx%d: too large for ffmpeg, which writes .%s; write numbered "
-                           "files instead, as in picture%%03d.png",
-                           width, height, format->name);
-    return true;
-}
-
 bool animation_check(const AnimationOptions *options, Message *message)
 {
     const Format *format = find_format(options->format);
@@ -167,7 +153,16 @@ bool animation_check(const AnimationOptions *options, Message *message)
         return message_set(message, "%.15g pictures per second: %s has %.4g to %.15g, because %s",
                            options->fps, format->name, fmax(format->slowest, 1e-3), format->fastest,
                            format->limit);
-    return check_size(format, options->width, options->height, message);
+    const int max = format->max_side;
+    if (max > 0 && (options->width > max || options->height > max))
+        return message_set(message, "size %dx%d: %s has at most %d pixels a side", options->width,
+                           options->height, format->name, max);
+    if (format->writer == WRITER_FFMPEG && !fits_ffmpeg(options->width, options->height))
+        return message_set(message,
+                           "size %dx%d: too large for ffmpeg, which writes .%s; write numbered "
+                           "files instead, as in picture%%03d.png",
+                           options->width, options->height, format->name);
+    return true;
 }
 
 /* Pictures per second. */

@@ -59,21 +59,6 @@ static bool list_lights(int lights, Message *message)
     return message_add(message, lights ? "lights 0 to %d" : "no lights", lights - 1);
 }
 
-static bool list_terms(unsigned terms, int lights, Message *message)
-{
-    bool any = false;
-    message_add(message, "the scene has ");
-    for (int k = 0; k < 4; k++) {
-        if (terms >> k & 1)
-            message_add(message, "%s%s", any ? ", " : "", SCENE_TERM_NAMES[k]);
-        any |= terms >> k & 1;
-    }
-    if (!any)
-        message_add(message, "no term that is not black");
-    message_add(message, "; ");
-    return list_lights(lights, message);
-}
-
 /* Of options that name lights the scene has not. */
 static bool refuse_lights(const DrawRequest *request, int lights, Message *message)
 {
@@ -118,7 +103,17 @@ static bool refuse_terms(SceneTerms named, Found found, Message *message)
         message_set(message, "--terms: there is no light %d; ", missing);
     else
         message_set(message, "--terms: there is no %s; ", SCENE_TERM_NAMES[absent]);
-    return list_terms(found.terms, found.lights, message);
+    bool any = false;
+    message_add(message, "the scene has ");
+    for (int k = 0; k < 4; k++) {
+        if (found.terms >> k & 1)
+            message_add(message, "%s%s", any ? ", " : "", SCENE_TERM_NAMES[k]);
+        any |= found.terms >> k & 1;
+    }
+    if (!any)
+        message_add(message, "no term that is not black");
+    message_add(message, "; ");
+    return list_lights(found.lights, message);
 }
 
 bool scene_check_names(const Example *example, const DrawRequest *request, Message *message)

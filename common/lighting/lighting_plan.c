@@ -18,22 +18,6 @@ static const Object *object_of(const LightingFrame *frame, int number)
 
 /* Room */
 
-static void open_objects(LightingPlan *plan, int count)
-{
-    if (count > plan->object_capacity) {
-        const size_t room = (size_t)count;
-        plan->objects = memory_grow(plan->objects, room, sizeof *plan->objects);
-        plan->surfaces = memory_grow(plan->surfaces, room, sizeof *plan->surfaces);
-        plan->casters = memory_grow(plan->casters, room, sizeof *plan->casters);
-        plan->scenes = memory_grow(plan->scenes, room, sizeof *plan->scenes);
-        memset(plan->scenes, 0, room * sizeof *plan->scenes);
-        plan->object_capacity = count;
-    }
-    for (int i = plan->object_count; i < count; i++)
-        plan->objects[i] = (PlannedObject){.mesh = NULL};
-    plan->object_count = count;
-}
-
 /* Keeps what the last frame left, unless that was of another kind. */
 static bool open_plan(LightingPlan *plan, Lighting *lighting, const LightingFrame *frame,
                       Message *message)
@@ -47,7 +31,18 @@ static bool open_plan(LightingPlan *plan, Lighting *lighting, const LightingFram
     plan->renewal = lighting->renewal;
     plan->full = frame->full;
     plan->in_parts = frame->parts != NULL;
-    open_objects(plan, scene->object_count);
+    if (scene->object_count > plan->object_capacity) {
+        const size_t room = (size_t)scene->object_count;
+        plan->objects = memory_grow(plan->objects, room, sizeof *plan->objects);
+        plan->surfaces = memory_grow(plan->surfaces, room, sizeof *plan->surfaces);
+        plan->casters = memory_grow(plan->casters, room, sizeof *plan->casters);
+        plan->scenes = memory_grow(plan->scenes, room, sizeof *plan->scenes);
+        memset(plan->scenes, 0, room * sizeof *plan->scenes);
+        plan->object_capacity = scene->object_count;
+    }
+    for (int i = plan->object_count; i < scene->object_count; i++)
+        plan->objects[i] = (PlannedObject){.mesh = NULL};
+    plan->object_count = scene->object_count;
     if (scene->light_count > plan->light_capacity) {
         plan->lights = memory_grow(plan->lights, (size_t)scene->light_count, sizeof *plan->lights);
         plan->light_capacity = scene->light_count;

@@ -139,18 +139,6 @@ static void cut_to_cone(Span *span, Real3 origin, Real3 direction, Real slope, R
     }
 }
 
-static int span_hits(const Span *span, SolidHit hits[SOLID_MAX_HITS])
-{
-    int count = 0;
-    if (!(span->from <= span->to))
-        return 0;
-    if (span->entry != PART_OPEN)
-        hits[count++] = (SolidHit){span->from, span->entry};
-    if (span->exit != PART_OPEN)
-        hits[count++] = (SolidHit){span->to, span->exit};
-    return count;
-}
-
 static int plane_hits(const Solid *solid, Real3 origin, Real3 direction,
                       SolidHit hits[SOLID_MAX_HITS])
 {
@@ -255,7 +243,14 @@ int ray_solid(const Solid *solid, Real3 origin, Real3 direction, SolidHit hits[S
     if (solid->kind == SOLID_QUAD || solid->kind == SOLID_DISC)
         return plane_hits(solid, origin, direction, hits);
     const Span span = convex_span(solid, origin, direction);
-    return span_hits(&span, hits);
+    int count = 0;
+    if (!(span.from <= span.to))
+        return 0;
+    if (span.entry != PART_OPEN)
+        hits[count++] = (SolidHit){span.from, span.entry};
+    if (span.exit != PART_OPEN)
+        hits[count++] = (SolidHit){span.to, span.exit};
+    return count;
 }
 
 static Real3 box_normal(int part)

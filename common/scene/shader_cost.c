@@ -352,27 +352,6 @@ static void need_way(Counter *counter, int block, int outer)
         need(counter, counter->blocks[block].condition);
 }
 
-/* Adds up what is needed, and what that needs. */
-static void add_up(Counter *counter, ShaderCost *cost)
-{
-    for (int i = 0; i < counter->needed_count; i++) {
-        const int index = counter->needed[i];
-        const Group group = counter->groups[index];
-        const Block block = counter->blocks[group.block];
-        cost->arithmetic += group.cost.arithmetic;
-        cost->special += group.cost.special;
-        for (int k = group.first; k < group.first + group.count; k++) {
-            const Number number = counter->numbers[k];
-            if (number.group == index) {
-                need(counter, number.a);
-                need(counter, number.b);
-            }
-            for (int n = 0; n < 2 && number.op == NUMBER_CHOICE; n++)
-                need_way(counter, block.from[n], block.parent);
-        }
-    }
-}
-
 /* Where an instruction leads that is no operation on numbers; -1: it turns an unknown number of
  * times. */
 static int follow(Counter *counter, const GlslInstruction *at, int next)
@@ -473,7 +452,23 @@ static bool count(Counter *counter, ShaderCost *cost, Message *message)
             if (variable->storage == GLSL_OUT || variable->storage == GLSL_VARYING)
                 need(counter, counter->way.numbers[variable->first + k]);
     }
-    add_up(counter, cost);
+    /* Adds up what is needed, and what that needs. */
+    for (int i = 0; i < counter->needed_count; i++) {
+        const int index = counter->needed[i];
+        const Group group = counter->groups[index];
+        const Block block = counter->blocks[group.block];
+        cost->arithmetic += group.cost.arithmetic;
+        cost->special += group.cost.special;
+        for (int k = group.first; k < group.first + group.count; k++) {
+            const Number number = counter->numbers[k];
+            if (number.group == index) {
+                need(counter, number.a);
+                need(counter, number.b);
+            }
+            for (int n = 0; n < 2 && number.op == NUMBER_CHOICE; n++)
+                need_way(counter, block.from[n], block.parent);
+        }
+    }
     return true;
 }
 

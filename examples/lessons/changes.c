@@ -133,24 +133,6 @@ static bool is_near_change(const Changes *all, int line, int around)
     return false;
 }
 
-static void keep_near(Changes *changes, const Changes *all, int around, int *changed)
-{
-    bool gap = false;
-    *changed = 0;
-    for (int i = 0; i < all->count; i++) {
-        const ChangeLine *line = &all->lines[i];
-        *changed += line->kind != CHANGE_SAME;
-        if (!is_near_change(all, i, around)) {
-            gap = around > 0;
-            continue;
-        }
-        if (gap)
-            changes_add(changes, CHANGE_GAP, "", 0);
-        changes_add(changes, line->kind, line->text, (int)strlen(line->text));
-        gap = false;
-    }
-}
-
 bool changes_between(Changes *changes, ChangeText before, ChangeText after, int around,
                      int *changed, Message *message)
 {
@@ -177,7 +159,20 @@ bool changes_between(Changes *changes, ChangeText before, ChangeText after, int 
         }
     }
     merge(&all, pair);
-    keep_near(changes, &all, around, changed);
+    bool gap = false;
+    *changed = 0;
+    for (int i = 0; i < all.count; i++) {
+        const ChangeLine *line = &all.lines[i];
+        *changed += line->kind != CHANGE_SAME;
+        if (!is_near_change(&all, i, around)) {
+            gap = around > 0;
+            continue;
+        }
+        if (gap)
+            changes_add(changes, CHANGE_GAP, "", 0);
+        changes_add(changes, line->kind, line->text, (int)strlen(line->text));
+        gap = false;
+    }
     changes_close(&all);
     free(pair->common);
     free(pair);

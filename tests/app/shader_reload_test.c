@@ -91,11 +91,6 @@ static int leave_folder(void **state)
 
 #define RELOAD_TEST(name) TEST_WITH(0, name, enter_folder, leave_folder)
 
-static void open_reload(const Example *example)
-{
-    shader_reload_open(&reload, example, &canvas, &request);
-}
-
 /* Something is drawn: the middle differs from the corner. */
 static bool shown(const Picture *drawn)
 {
@@ -157,7 +152,7 @@ static void breaks(const char *command, const char *said)
 
 RELOAD_TEST(errors_after_compiling_are_rejected)
 {
-    open_reload(&LightedCube);
+    shader_reload_open(&reload, &LightedCube, &canvas, &request);
     loads();
     breaks(EDIT("lecture/LightedCube.frag", "varying vec4 v_Color",
                 "varying vec3 v_Color") "; " EDIT("lecture/LightedCube.frag", "= v_Color",
@@ -175,7 +170,7 @@ RELOAD_TEST(errors_after_compiling_are_rejected)
 /* The program of a later time is compiled from the cached files, too. */
 RELOAD_TEST(a_later_program_uses_the_same_files)
 {
-    open_reload(&later);
+    shader_reload_open(&reload, &later, &canvas, &request);
     loads();
     request.seconds = 2;
     draw_into(&before);
@@ -196,7 +191,7 @@ RELOAD_TEST(an_error_in_a_later_program_restores_the_earlier_shaders)
     static const char *const BREAK = "cp mine/lighting/common.glsl mine/keep; printf "
                                      "'#ifdef FRAGMENT_POSITION\\nbroken\\n#endif\\n' >> "
                                      "mine/lighting/common.glsl";
-    open_reload(&later);
+    shader_reload_open(&reload, &later, &canvas, &request);
     loads();
     request.seconds = 2;
     draw_into(&before);
@@ -229,7 +224,7 @@ RELOAD_TEST(two_hundred_loads_leak_nothing)
     for (int e = 0; e < 2; e++) {
         int files = 0;
         long kilobytes = 0;
-        open_reload(examples[e]);
+        shader_reload_open(&reload, examples[e], &canvas, &request);
         loads();
         for (int i = 0; i < 200; i++) {
             FILE *file = fopen(paths[e], "a");

@@ -237,24 +237,6 @@ typedef struct Comparison {
     double (*errors)[DECADES][2]; /* by algorithm: median and worst */
 } Comparison;
 
-static void find_errors(const Comparison *comparison)
-{
-    static double errors[COUNT];
-    for (int decade = 0; decade < DECADES; decade++) {
-        fill(pow(10, 2 * decade));
-        for (int k = 0; k < comparison->count; k++) {
-            const Algorithm *algorithm = &comparison->algorithms[k];
-            if (!algorithm->run)
-                continue;
-            algorithm->run(&BATCH);
-            for (int i = 0; i < COUNT; i++)
-                errors[i] = comparison->error(i, algorithm->real);
-            comparison->errors[k][decade][0] = clock_median(errors, COUNT);
-            comparison->errors[k][decade][1] = clock_quantile(errors, COUNT, 1);
-        }
-    }
-}
-
 /* Times. */
 
 static bool run_batches(void *argument, __attribute__((unused)) Message *message)
@@ -283,7 +265,20 @@ static bool compare(const Comparison *comparison, Message *message)
 {
     BenchRun runs[INVERSE_COUNT];
     Table table;
-    find_errors(comparison);
+    static double errors[COUNT];
+    for (int decade = 0; decade < DECADES; decade++) {
+        fill(pow(10, 2 * decade));
+        for (int k = 0; k < comparison->count; k++) {
+            const Algorithm *algorithm = &comparison->algorithms[k];
+            if (!algorithm->run)
+                continue;
+            algorithm->run(&BATCH);
+            for (int i = 0; i < COUNT; i++)
+                errors[i] = comparison->error(i, algorithm->real);
+            comparison->errors[k][decade][0] = clock_median(errors, COUNT);
+            comparison->errors[k][decade][1] = clock_quantile(errors, COUNT, 1);
+        }
+    }
     fill(0);
     for (int k = 0; k < comparison->count; k++)
         runs[k] = (BenchRun){comparison->algorithms[k].name, run_batches,

@@ -65,25 +65,6 @@ typedef struct Command {
     char text[1024], *words[MAX_WORDS];
 } Command;
 
-static void make_command(Command *command, int row, char *arguments[], const char *folder)
-{
-    const char *slash = strrchr(arguments[PROGRAM], '/');
-    FILE *file = fmemopen(command->text, sizeof command->text, "w");
-    for (const char *p = COMMANDS[row].words; file && *p; p++) {
-        if (*p == '$')
-            fputs(*++p == 'F' ? folder : slash ? slash + 1 : arguments[PROGRAM], file);
-        else
-            fputc(*p, file);
-    }
-    if (file)
-        fclose(file);
-    int count = 0;
-    command->words[count++] = arguments[COMMANDS[row].program];
-    for (char *word = strtok(command->text, " "); word; word = strtok(NULL, " "))
-        command->words[count++] = word;
-    command->words[count] = NULL;
-}
-
 /* Runs a command and waits for it. */
 static bool run_command(void *argument, Message *message)
 {
@@ -132,7 +113,21 @@ static bool run(Message *message)
     if (!folder)
         return false;
     for (int i = 0; i < COUNT; i++) {
-        make_command(&commands[i], i, bench_arguments, folder);
+        const char *slash = strrchr(bench_arguments[PROGRAM], '/');
+        FILE *file = fmemopen(commands[i].text, sizeof commands[i].text, "w");
+        for (const char *p = COMMANDS[i].words; file && *p; p++) {
+            if (*p == '$')
+                fputs(*++p == 'F' ? folder : slash ? slash + 1 : bench_arguments[PROGRAM], file);
+            else
+                fputc(*p, file);
+        }
+        if (file)
+            fclose(file);
+        int count = 0;
+        commands[i].words[count++] = bench_arguments[COMMANDS[i].program];
+        for (char *word = strtok(commands[i].text, " "); word; word = strtok(NULL, " "))
+            commands[i].words[count++] = word;
+        commands[i].words[count] = NULL;
         runs[i] = (BenchRun){COMMANDS[i].name, run_command, &commands[i], NULL, 0};
     }
     const bool done = bench_rounds(runs, COUNT, ROUNDS, message);

@@ -447,25 +447,6 @@ static bool apart(DrawingBox a, DrawingBox b, double gap)
            b.bottom + gap <= a.top;
 }
 
-static void check_layout(const Drawing *drawing, const char *what)
-{
-    const double em = fmin(drawing->width / 27, drawing->height / 21);
-    for (int i = 0; i < drawing->label_count; i++)
-        for (int j = 0; j < i; j++)
-            if (!apart(drawing->labels[i].box, drawing->labels[j].box,
-                       strchr("$(", drawing->labels[i].text[0]) ? 0.25 * em : 0))
-                fail_msg("%s: %s touches %s", what, drawing->labels[i].text,
-                         drawing->labels[j].text);
-    for (int i = 0; i < drawing->path_count; i++) {
-        const DrawingBox box = path_box(drawing, &drawing->paths[i]);
-        if (!(box.left >= 0 && box.top >= 0 && box.right <= drawing->width &&
-              box.bottom <= drawing->height) &&
-            drawing->paths[i].step_count)
-            fail_msg("%s: path %d is cut: %g %g %g %g of %gx%g", what, i, box.left, box.top,
-                     box.right, box.bottom, drawing->width, drawing->height);
-    }
-}
-
 static bool has_label(const Drawing *drawing, const char *letter)
 {
     for (int i = 0; i < drawing->label_count; i++)
@@ -485,7 +466,20 @@ static void check_figure(Figure figure, const Optics *optics, double width, doub
              FIGURE_NAMES[figure], width, height, optics->light, optics->eye, optics->shininess,
              REFLECTION_NAMES[optics->reflection], optics->radiating ? "radiating" : "parallel",
              optics->sides, optics->distance);
-    check_layout(&drawing, what);
+    const double em = fmin(drawing.width / 27, drawing.height / 21);
+    for (int i = 0; i < drawing.label_count; i++)
+        for (int j = 0; j < i; j++)
+            if (!apart(drawing.labels[i].box, drawing.labels[j].box,
+                       strchr("$(", drawing.labels[i].text[0]) ? 0.25 * em : 0))
+                fail_msg("%s: %s touches %s", what, drawing.labels[i].text, drawing.labels[j].text);
+    for (int i = 0; i < drawing.path_count; i++) {
+        const DrawingBox box = path_box(&drawing, &drawing.paths[i]);
+        if (!(box.left >= 0 && box.top >= 0 && box.right <= drawing.width &&
+              box.bottom <= drawing.height) &&
+            drawing.paths[i].step_count)
+            fail_msg("%s: path %d is cut: %g %g %g %g of %gx%g", what, i, box.left, box.top,
+                     box.right, box.bottom, drawing.width, drawing.height);
+    }
     for (int i = 0; i < 4 && figure == FIGURE_VECTORS; i++)
         if (!has_label(&drawing, (const char *[]){"N", "L", "R", "V"}[i]))
             fail_msg("%s: no label %d", what, i);

@@ -21,26 +21,6 @@ static void check_text(const char *text, size_t size, bool lines)
     json_decref(value);
 }
 
-static void check(const Verdict *verdict)
-{
-    require(verdict->points >= 0 && verdict->points <= verdict_most(verdict) &&
-            verdict->kind <= VERDICT_TIMEOUT && verdict->mistake_count <= VERDICT_MAX_MISTAKES &&
-            verdict->symptom_count <= VERDICT_MAX_SYMPTOMS &&
-            verdict->probe_count <= VERDICT_MAX_PROBES && !strchr(verdict->picture, '/') &&
-            verdict->picture[0] != '.');
-    check_text(verdict->message, sizeof verdict->message, false);
-    check_text(verdict->details, sizeof verdict->details, true);
-    for (int i = 0; i < verdict->mistake_count; i++) {
-        check_text(verdict->mistakes[i].name, sizeof verdict->mistakes[i].name, false);
-        check_text(verdict->mistakes[i].look, VERDICT_SENTENCE_SIZE, false);
-        check_text(verdict->mistakes[i].sentence, VERDICT_SENTENCE_SIZE, false);
-    }
-    for (int i = 0; i < verdict->symptom_count; i++)
-        check_text(verdict->symptoms[i], VERDICT_SENTENCE_SIZE, false);
-    for (int i = 0; i < verdict->probe_count; i++)
-        check_text(verdict->probes[i].name, sizeof verdict->probes[i].name, false);
-}
-
 static char *written(const Verdict *verdict, const char *lab)
 {
     char *text = NULL;
@@ -64,7 +44,22 @@ FUZZ(data, size)
         require(message.text[0]);
         return 0;
     }
-    check(&verdict);
+    require(verdict.points >= 0 && verdict.points <= verdict_most(&verdict) &&
+            verdict.kind <= VERDICT_TIMEOUT && verdict.mistake_count <= VERDICT_MAX_MISTAKES &&
+            verdict.symptom_count <= VERDICT_MAX_SYMPTOMS &&
+            verdict.probe_count <= VERDICT_MAX_PROBES && !strchr(verdict.picture, '/') &&
+            verdict.picture[0] != '.');
+    check_text(verdict.message, sizeof verdict.message, false);
+    check_text(verdict.details, sizeof verdict.details, true);
+    for (int i = 0; i < verdict.mistake_count; i++) {
+        check_text(verdict.mistakes[i].name, sizeof verdict.mistakes[i].name, false);
+        check_text(verdict.mistakes[i].look, VERDICT_SENTENCE_SIZE, false);
+        check_text(verdict.mistakes[i].sentence, VERDICT_SENTENCE_SIZE, false);
+    }
+    for (int i = 0; i < verdict.symptom_count; i++)
+        check_text(verdict.symptoms[i], VERDICT_SENTENCE_SIZE, false);
+    for (int i = 0; i < verdict.probe_count; i++)
+        check_text(verdict.probes[i].name, sizeof verdict.probes[i].name, false);
     char *text = written(&verdict, lab);
     require(verdict_read(text, strlen(text), lab_again, &again, &message) &&
             strcmp(lab, lab_again) == 0);

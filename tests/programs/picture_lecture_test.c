@@ -114,9 +114,14 @@ static double shader_rounding(const Scene *scene)
                                                          : oracle_mediump_max(scene, reach) - 0.5;
 }
 
-/* What is drawn of an object is where it is, and nothing else. */
-static void assert_covered(const char *name, const Image *picture, const Reference *exact)
+static void check_picture(const char *name, const Image *picture, const Scene *scene,
+                          const Reference *exact, bool half, ErrorSum *sum)
 {
+    const double most = half ? fmax(0.5 + shader_rounding(scene), 1) : 1;
+    PictureError error = {.all = {0}};
+    picture_error_add(&error, picture, &(ExactView){.exact = exact, .scene = scene});
+    const ErrorSum *inside = &error.interior;
+    /* What is drawn of an object is where it is, and nothing else. */
     double drawn = 0, area = 0;
     for (int i = 0; i < exact->width * exact->height; i++) {
         const double part = (double)exact->coverage[i],
@@ -130,16 +135,6 @@ static void assert_covered(const char *name, const Image *picture, const Referen
     }
     if (fabs(drawn - area) > 0.005 * area)
         fail_msg("%s: %.0f pixels are covered, not %.0f", name, drawn, area);
-}
-
-static void check_picture(const char *name, const Image *picture, const Scene *scene,
-                          const Reference *exact, bool half, ErrorSum *sum)
-{
-    const double most = half ? fmax(0.5 + shader_rounding(scene), 1) : 1;
-    PictureError error = {.all = {0}};
-    picture_error_add(&error, picture, &(ExactView){.exact = exact, .scene = scene});
-    const ErrorSum *inside = &error.interior;
-    assert_covered(name, picture, exact);
     assert_true(inside->pixels > exact->width * exact->height / 20);
     if (inside->maximum > most) {
         picture_check_keep_exact(name, picture, exact);

@@ -89,11 +89,6 @@ static const unsigned char *pixel(const Image *image, int x, int y)
            4 * ((size_t)y * (size_t)image->width + (size_t)x);
 }
 
-static void assert_same(const Image *a, const Image *b, const char *name)
-{
-    assert_true(picture_check_same(name, a, b, 0));
-}
-
 /* The examples that set their state once: attributes with and without arrays, depth, culling. */
 TEST(test_an_example_draws_the_same_before_and_after)
 {
@@ -108,7 +103,7 @@ TEST(test_an_example_draws_the_same_before_and_after)
         draw_panel(&content, 1);
         CLOSED(image_close) Image with = read_picture();
         CLOSED(image_close) Image after = example_picture();
-        assert_same(&after, &before, "panel-after");
+        assert_true(picture_check_same("panel-after", &after, &before, 0));
         assert_false(memcmp(pixel(&with, 30, 30), pixel(&before, 30, 30), 4) == 0);
         renderer_close(&renderer);
     }
@@ -234,7 +229,7 @@ TEST(test_every_size_and_scale)
         const PanelContent content = everything(&ShadingModels);
         draw_panel(&content, cases[i].scale);
         CLOSED(image_close) Image with = read_picture(), after = example_picture();
-        assert_same(&after, &before, "panel-size");
+        assert_true(picture_check_same("panel-size", &after, &before, 0));
         renderer_close(&renderer);
         close_all();
     }
@@ -257,7 +252,7 @@ TEST(test_the_atlas_follows_the_scale)
     glClear(GL_COLOR_BUFFER_BIT);
     draw_panel(&content, 1);
     CLOSED(image_close) Image again = read_picture();
-    assert_same(&again, &first, "panel-again");
+    assert_true(picture_check_same("panel-again", &again, &first, 0));
     close_all();
 }
 
@@ -269,7 +264,7 @@ TEST(test_nothing_to_show_draws_nothing)
     CLOSED(image_close) Image before = read_picture();
     draw_panel(&content, 1);
     CLOSED(image_close) Image after = read_picture();
-    assert_same(&after, &before, "panel-nothing");
+    assert_true(picture_check_same("panel-nothing", &after, &before, 0));
     close_all();
 }
 

@@ -179,28 +179,6 @@ bool meter_format(const Meter *meter, MeterStage stage, MeterPrecision precision
                        METER_STAGE_NAMES[stage]);
 }
 
-/* Whether numbers with 24 significant bits pass both stages unchanged. */
-static bool check_channel(const Meter *meter, Message *message)
-{
-    enum { COUNT = 512 };
-    float inputs[COUNT][4], found[COUNT][4];
-    for (int i = 0; i < 4 * COUNT; i++)
-        inputs[i / 4][i % 4] = ldexpf((float)(0x800001 + 4097 * i), i % 200 - 123);
-    meter_load(meter, (const float(*)[4])inputs, (const float(*)[4])inputs, COUNT);
-    for (int stage = 0; stage < METER_STAGES; stage++) {
-        const GLuint program = meter_copy((MeterStage)stage, message);
-        if (!program || !meter_run(meter, program, (MeterStage)stage, found, COUNT, message))
-            return false;
-        glDeleteProgram(program);
-        if (memcmp(inputs, found, sizeof found) != 0)
-            return message_set(message,
-                               "%s: highp of the %s shader has fewer than 24 bits, whatever the "
-                               "driver says: results cannot be read",
-                               meter->canvas.renderer, METER_STAGE_NAMES[stage]);
-    }
-    return true;
-}
-
 static bool prepare(Meter *meter, Message *message)
 {
     if (!meter->canvas.real)
@@ -226,7 +204,24 @@ static bool prepare(Meter *meter, Message *message)
     glBindBuffer(GL_ARRAY_BUFFER, meter->buffers[2]);
     glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)sizeof(float[2]) * BATCH_COUNT, at, GL_STATIC_DRAW);
     free(at);
-    return check_channel(meter, message);
+    /* Whether numbers with 24 significant bits pass both stages unchanged. */
+    enum { COUNT = 512 };
+    float inputs[COUNT][4], found[COUNT][4];
+    for (int i = 0; i < 4 * COUNT; i++)
+        inputs[i / 4][i % 4] = ldexpf((float)(0x800001 + 4097 * i), i % 200 - 123);
+    meter_load(meter, (const float(*)[4])inputs, (const float(*)[4])inputs, COUNT);
+    for (int stage = 0; stage < METER_STAGES; stage++) {
+        const GLuint program = meter_copy((MeterStage)stage, message);
+        if (!program || !meter_run(meter, program, (MeterStage)stage, found, COUNT, message))
+            return false;
+        glDeleteProgram(program);
+        if (memcmp(inputs, found, sizeof found) != 0)
+            return message_set(message,
+                               "%s: highp of the %s shader has fewer than 24 bits, whatever the "
+                               "driver says: results cannot be read",
+                               meter->canvas.renderer, METER_STAGE_NAMES[stage]);
+    }
+    return true;
 }
 
 bool meter_open(Meter *meter, const CanvasBackend *backend, Message *message)

@@ -30,23 +30,6 @@ static void put_row(JsonWriter *json, const ResultRow *row)
     json_write_end(json);
 }
 
-/* The axes, their choices and the usual one. */
-static void put_axes(JsonWriter *json)
-{
-    json_write_object(json, "axes");
-    for (int axis = 0; axis < AXIS_COUNT; axis++) {
-        const QualityAxisInfo *info = &QUALITY_AXES[axis];
-        json_write_object(json, info->name);
-        json_write_text(json, "usual", info->choices[info->usual]);
-        json_write_list(json, "choices");
-        for (int i = 0; i < info->count; i++)
-            json_write_text(json, NULL, info->choices[i]);
-        json_write_end(json);
-        json_write_end(json);
-    }
-    json_write_end(json);
-}
-
 bool results_write_json(const Results *results, const char *path, Message *message)
 {
     OutputText text;
@@ -58,7 +41,19 @@ bool results_write_json(const Results *results, const char *path, Message *messa
     json_write_text(&json, "times", "milliseconds");
     json_write_text(&json, "noise", "a fraction of the time");
     json_write_end(&json);
-    put_axes(&json);
+    /* The axes, their choices and the usual one. */
+    json_write_object(&json, "axes");
+    for (int axis = 0; axis < AXIS_COUNT; axis++) {
+        const QualityAxisInfo *info = &QUALITY_AXES[axis];
+        json_write_object(&json, info->name);
+        json_write_text(&json, "usual", info->choices[info->usual]);
+        json_write_list(&json, "choices");
+        for (int i = 0; i < info->count; i++)
+            json_write_text(&json, NULL, info->choices[i]);
+        json_write_end(&json);
+        json_write_end(&json);
+    }
+    json_write_end(&json);
     json_write_list(&json, "rows");
     for (int i = 0; i < results->count; i++)
         put_row(&json, &results->rows[i]);
