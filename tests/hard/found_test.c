@@ -3,18 +3,11 @@
  * follows from it; then random scenes in which things coincide exactly: lights, eye, corners.
  * HARD_SEED in the environment chooses others.
  */
-#include "hard/judge.h"
+#include "hard/random_scene.h"
 #include "support/picture_check.h"
 #include "support/testing.h"
 
 enum { SIZE = 24 };
-
-#define IDENTITY                                                                                   \
-    {                                                                                              \
-        {                                                                                          \
-            1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1                                         \
-        }                                                                                          \
-    }
 
 /* R.V is negative on the whole face and the shininess is nearly 0. The exact highlight is 0; the
  * shaders computed pow(max(cosine, 1e-37), s), which is 0.43 for s = 0.01: an error of 109 steps.
@@ -25,7 +18,7 @@ static const RandomScene SHININESS_NEXT_TO_0 = {
               .object_count = 1,
               .reflection = REFLECTION_PHONG},
     .lights[0] = {.kind = LIGHT_POINT, .position = {3, 0, 0.5}, .specular = {0, 0, 1}},
-    .objects[0] = {.world_from_object = IDENTITY,
+    .objects[0] = {.world_from_object = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}},
                    .front = {.specular = {0, 0, 1}, .alpha = 1, .shininess = 0.01}},
     .shapes[0] = {.solid = {.kind = SOLID_QUAD}, .divisions = 3},
 };
@@ -179,7 +172,7 @@ static const RandomScene SHININESS_IN_BOTH_SHADERS = {
               .distant_viewer = true},
     .lights[0] = {.kind = LIGHT_DIRECTIONAL, .direction = {0, 0, 1}, .specular = {1, 0, 0}},
     .lights[1] = {.kind = LIGHT_POINT, .position = {0, 0, 2}, .specular = {0, 1, 0}},
-    .objects[0] = {.world_from_object = IDENTITY,
+    .objects[0] = {.world_from_object = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}},
                    .front = {.specular = {0.9, 0.9, 0.9}, .alpha = 1, .shininess = 8}},
     .shapes[0] = {.solid = {.kind = SOLID_QUAD}, .divisions = 3},
 };
@@ -190,32 +183,182 @@ typedef struct Found {
     double max; /* steps of 1/255, beyond the allowance for rounding; see judge_error */
 } Found;
 
-#define FOUND(scene, max)                                                                          \
-    {                                                                                              \
-#scene, &scene, max                                                                        \
-    }
-
 static const Found FOUND_SCENES[] = {
-    FOUND(SHININESS_NEXT_TO_0, 0.1),
-    FOUND(STRONG_LIGHT_ASIDE, 0.1),
-    FOUND(CLOSE_LOOK_AT_A_CONE, 0.1),
-    FOUND(NARROW_CONE_SEEN_CLOSELY, 0.1),
-    FOUND(SMALL_TRIANGLES_IN_THE_DARK, 0.5),
-    FOUND(CORNER_ON_A_SPOT, 0.1),
-    FOUND(CORNERS_FAR_AWAY, 255),
-    FOUND(CORNERS_TOO_FAR_AWAY, 255),
-    FOUND(MIN_CONSTANT_ATTENUATION, 0.1),
-    FOUND(SHININESS_IN_BOTH_SHADERS, 0.1),
+    {"SHININESS_NEXT_TO_0", &SHININESS_NEXT_TO_0, 0.1},
+    {"STRONG_LIGHT_ASIDE", &STRONG_LIGHT_ASIDE, 0.1},
+    {"CLOSE_LOOK_AT_A_CONE", &CLOSE_LOOK_AT_A_CONE, 0.1},
+    {"NARROW_CONE_SEEN_CLOSELY", &NARROW_CONE_SEEN_CLOSELY, 0.1},
+    {"SMALL_TRIANGLES_IN_THE_DARK", &SMALL_TRIANGLES_IN_THE_DARK, 0.5},
+    {"CORNER_ON_A_SPOT", &CORNER_ON_A_SPOT, 0.1},
+    {"CORNERS_FAR_AWAY", &CORNERS_FAR_AWAY, 255},
+    {"CORNERS_TOO_FAR_AWAY", &CORNERS_TOO_FAR_AWAY, 255},
+    {"MIN_CONSTANT_ATTENUATION", &MIN_CONSTANT_ATTENUATION, 0.1},
+    {"SHININESS_IN_BOTH_SHADERS", &SHININESS_IN_BOTH_SHADERS, 0.1},
 };
+
+enum { MAX_MESHES = 64 };
+
+static RandomMeshes meshes;
+
+static void forget_meshes(void)
+{
+    for (const RandomMesh *made = meshes.first; made; made = made->next)
+        hard_forget(&made->mesh);
+    random_meshes_close(&meshes);
+}
+
+/* Whether 24 bits of depth resolve the scene: far away, depth equals the background's, and both
+ * sides of a flattened object have the same depth. */
+static bool depth_suffices(const RandomScene *scene)
+{
+    const Camera *camera = &scene->scene.camera;
+    if (!(camera->far <= 1e6 * camera->near))
+        return false;
+    for (int i = 0; i < scene->scene.object_count; i++) {
+        const Object *object = &scene->objects[i];
+        const double *m = object->world_from_object.m;
+        const Vec3 x = {m[0], m[1], m[2]}, y = {m[4], m[5], m[6]}, z = {m[8], m[9], m[10]};
+        const double size = vec3_length(x) * vec3_length(y) * vec3_length(z);
+        const bool plane = object->solid.kind == SOLID_QUAD || object->solid.kind == SOLID_DISC;
+        const Solid *solid = &object->solid;
+        if (!plane && !(fabs(vec3_dot(vec3_cross(x, y), z)) > 1e-3 * size))
+            return false;
+        if ((solid->kind == SOLID_CONE || solid->kind == SOLID_CYLINDER) &&
+            !(solid->height > 1e-3 * solid->radius && solid->radius > 1e-3 * solid->height))
+            return false;
+    }
+    return true;
+}
+
+/* The effect of floats on a scene: some numbers change by a little more than their rounding, and
+ * the picture moves by 1/256 of a pixel, to which drivers round the corners of triangles. `sign` is
+ * 1 or -1: of two opposite changes, one crosses a discontinuity near the scene. */
+static void perturb(RandomScene *scene, Random *random, double sign, int size)
+{
+    static const double SMALL = 0x1p-21, RADIANS = 0.017453292519943295;
+    Camera *camera = &scene->scene.camera;
+    double far = 0; /* the largest distance from the eye */
+    for (int i = 0; i < scene->scene.object_count; i++) {
+        double *m = scene->objects[i].world_from_object.m;
+        const Vec3 place = {m[12] - camera->eye.x, m[13] - camera->eye.y, m[14] - camera->eye.z};
+        const MeshBox box = mesh_bounds(scene->objects[i].mesh);
+        const double reach = fmax(vec3_length(box.low), vec3_length(box.high));
+        double scale = 0;
+        for (int k = 0; k < 12; k++)
+            scale = fmax(scale, fabs(m[k]));
+        far = fmax(far, vec3_length(place) + 2 * scale * reach);
+        for (int k = 0; k < 12; k++)
+            m[k] += sign * SMALL * scale * random_between(random, -1, 1) * (k % 4 < 3);
+        /* There are 24 bits of depth between near and far. */
+        const double deep = pow(vec3_length(place), 2) / camera->near * 0x1p-23;
+        for (int k = 12; k < 15; k++)
+            m[k] += sign * fmax(deep, SMALL * vec3_length(place)) * random_between(random, -1, 1);
+    }
+    for (int i = 0; i < scene->scene.light_count; i++) {
+        Light *light = &scene->lights[i];
+        const Light there = scene_world_light(&scene->scene, i);
+        const double reach = far + vec3_length(vec3_subtract(there.position, camera->eye));
+        Vec3 unit;
+        vec3_normalize(light->direction, &unit);
+        light->position = vec3_add(light->position,
+                                   vec3_scale(hard_random_direction(random), sign * SMALL * reach));
+        light->direction = vec3_add(unit, vec3_scale(hard_random_direction(random), sign * SMALL));
+        const double cosine = cos(light->cutoff * RADIANS) + sign * SMALL;
+        light->cutoff = acos(fmax(0, fmin(1, cosine))) / RADIANS;
+    }
+    const Vec3 view = vec3_subtract(camera->center, camera->eye);
+    const double pixel = 2 * tan(camera->fovy * RADIANS / 2) / size;
+    camera->center =
+        vec3_add(camera->center, vec3_scale(hard_random_direction(random),
+                                            sign * vec3_length(view) * (pixel / 256 + SMALL)));
+}
+
+/* The exact picture of the mesh; edges need only be known, not exact. */
+static void exact_picture(const RandomScene *scene, Reference *exact)
+{
+    const ReferenceOptions options = {.width = hard.floats.width,
+                                      .height = hard.floats.height,
+                                      .meshes = true,
+                                      .edge_error = 255,
+                                      .threads = 1};
+    SUCCEEDS(reference_open(exact, &scene->scene, &options, message));
+}
+
+/* Adds to `slack` how far the exact pictures of slightly different scenes differ from the first. */
+static bool add_slack(const RandomScene *scene, const Reference *exact, float *slack)
+{
+    enum { PAIRS = 8 };
+    const size_t count = 3 * (size_t)exact->width * (size_t)exact->height;
+    Random random = {1};
+    for (int pair = 0; pair < 2 * PAIRS; pair++) {
+        RandomScene other = *scene;
+        Reference picture;
+        Random same = random;
+        random_scene_ready(&other, &meshes, NULL);
+        perturb(&other, pair % 2 ? &random : &same, pair % 2 ? 1 : -1, exact->height);
+        if (!scene_check(&other.scene, NULL))
+            return false;
+        exact_picture(&other, &picture);
+        for (size_t i = 0; i < count; i++)
+            slack[i] = fmaxf(slack[i], fabsf(picture.color[i] - exact->color[i]));
+        reference_close(&picture);
+    }
+    return true;
+}
+
+/* The largest error of the last picture inside objects, beyond the slack; -1 if there are none. */
+static double largest_error(const Reference *exact, const float *slack)
+{
+    const float *real = hard.real.pixels;
+    double max = -1;
+    for (size_t i = 0; i < (size_t)exact->width * (size_t)exact->height; i++) {
+        for (size_t c = 0; c < 3; c++) {
+            const double value = (double)real[4 * i + c];
+            if (!isfinite(value))
+                return INFINITY;
+            if (exact->interior[i])
+                max = fmax(max,
+                           255 * (fabs(fmax(0, fmin(1, value)) - (double)exact->color[3 * i + c]) -
+                                  2 * (double)slack[3 * i + c]));
+        }
+    }
+    return max;
+}
+
+/* The largest error inside the objects of a float picture, in steps of 1/255, beyond twice the
+ * effect of changing the scene's numbers in the 7th digit; INFINITY if a value is not finite. If
+ * the error cannot be more than `enough`, without that allowance. -1 if a scene is not judged: it
+ * is invalid, shows nothing, or needs more bits of depth than there are. */
+static double judge_error(RandomScene *scene, double enough)
+{
+    Reference exact;
+    if (meshes.count > MAX_MESHES)
+        forget_meshes();
+    if (!random_scene_ready(scene, &meshes, NULL) || !scene_check(&scene->scene, NULL) ||
+        !depth_suffices(scene))
+        return -1;
+    exact_picture(scene, &exact);
+    picture_draw(&hard.floats, hard.lightings[HARD_HIGHP], &(LightingFrame){.scene = &scene->scene},
+                 &hard.real);
+    float *slack = calloc(3 * (size_t)exact.width * (size_t)exact.height, sizeof *slack);
+    assert_non_null(slack);
+    double error = largest_error(&exact, slack);
+    if (error > enough && error > 0.02 && !isinf(error))
+        error = add_slack(scene, &exact, slack) ? largest_error(&exact, slack) : -1;
+    free(slack);
+    reference_close(&exact);
+    return error;
+}
 
 FIXTURE(open_all)
 {
-    judge_open(SIZE);
+    hard_open(SIZE, SIZE);
 }
 
 FIXTURE(close_all)
 {
-    judge_close();
+    forget_meshes();
+    hard_close();
 }
 
 TEST(found_scenes_stay_within_their_bounds)
@@ -236,7 +379,7 @@ TEST(found_scenes_stay_within_their_bounds)
 TEST(shininess_in_both_shaders_links)
 {
     RandomScene scene = SHININESS_IN_BOTH_SHADERS;
-    assert_true(judge_ready(&scene));
+    assert_true(random_scene_ready(&scene, &meshes, NULL));
     for (int i = 0; i < 2; i++)
         picture_draw(&hard.floats, hard.lightings[i], &(LightingFrame){.scene = &scene.scene},
                      &hard.real);
@@ -350,10 +493,10 @@ TEST(coincidences_are_drawn_right)
         Random random = {seed + (unsigned)i};
         RandomScene scene;
         random_scene_make(&scene, random.state, seed);
-        assert_true(judge_ready(&scene));
+        assert_true(random_scene_ready(&scene, &meshes, NULL));
         for (int k = 0; k < VARIATIONS; k++) {
             RandomScene varied = scene;
-            assert_true(judge_ready(&varied));
+            assert_true(random_scene_ready(&varied, &meshes, NULL));
             for (int n = random_below(&random, 4); n > 0; n--)
                 coincide(&random, &varied);
             const double error = judge_error(&varied, 0.5);
