@@ -46,14 +46,12 @@ FIXTURE(set_up)
 
 static void shine_specular(void)
 {
-    world.lights[0].specular = WHITE;
-    world.object.front.specular = WHITE;
+    world.lights[0].specular = world.object.front.specular = WHITE;
 }
 
 static void shine_ambient(void)
 {
-    world.lights[0].ambient = WHITE;
-    world.object.front.ambient = WHITE;
+    world.lights[0].ambient = world.object.front.ambient = WHITE;
 }
 
 static void transform_by(Mat4 matrix)
@@ -154,22 +152,6 @@ TEST_WITH(0, diffuse_light_alone_needs_normals_and_no_more, set_up, NULL)
     assert_said("without clamping at the vertices: not requested");
     assert_said("without sRGB encoding: not requested");
     assert_said("without highlighting overexposed pixels: not requested");
-}
-
-TEST_WITH(0, a_term_needs_a_colour_in_both_light_and_material, set_up, NULL)
-{
-    world.lights[0].specular = WHITE;
-    assert_set("normals unit_fragment | 0 directional diffuse");
-    world.object.front.specular = RED;
-    assert_set("normals unit_fragment local | 0 directional diffuse specular");
-    assert_said("specular: in light and material");
-    assert_said("local viewer: the direction to the eye varies over the surface");
-    world.lights[0].specular = GREEN; /* the red material does not reflect it */
-    assert_set("normals unit_fragment | 0 directional diffuse");
-    world.object.front.diffuse = BLACK;
-    world.lights[0].specular = RED;
-    assert_set("normals unit_fragment local | 0 directional specular");
-    assert_said("without diffuse: black in light or material");
 }
 
 TEST_WITH(0, a_light_that_is_off_or_black_is_left_out, set_up, NULL)
@@ -300,30 +282,6 @@ TEST_WITH(0, the_half_vector_is_constant_only_for_a_far_light_a_far_viewer_and_b
     assert_said("without half vector as a uniform: the viewer is near");
 }
 
-TEST_WITH(0, the_reflection_counts_only_where_something_is_specular, set_up, NULL)
-{
-    world.scene.reflection = REFLECTION_PHONG;
-    assert_set("normals unit_fragment | 0 directional diffuse");
-    shine_specular();
-    assert_set("normals unit_fragment local phong | 0 directional diffuse specular");
-}
-
-TEST_WITH(0, attenuation_counts_only_where_it_depends_on_distance, set_up, NULL)
-{
-    Light *light = &world.lights[0];
-    light->linear = 1;
-    assert_set("normals unit_fragment | 0 directional diffuse");
-    light->kind = LIGHT_POINT;
-    assert_set("normals unit_fragment limit | 0 point diffuse attenuation");
-    assert_said("attenuation: depends on the distance");
-    light->linear = 0;
-    light->constant = 3;
-    assert_set("normals unit_fragment | 0 point diffuse");
-    assert_said("without attenuation: constant");
-    light->quadratic = 0.01;
-    assert_set("normals unit_fragment | 0 point diffuse attenuation");
-}
-
 TEST_WITH(0, a_fall_off_counts_only_for_spots, set_up, NULL)
 {
     Light *light = &world.lights[0];
@@ -452,14 +410,6 @@ TEST_WITH(0, wrong_normals_never_need_a_matrix_of_their_own, set_up, NULL)
     assert_said("without normal matrix: the scene requests the wrong one");
 }
 
-TEST_WITH(0, varying_ambient_light_needs_no_normals, set_up, NULL)
-{
-    world.lights[0] = (Light){.kind = LIGHT_POINT, .ambient = WHITE, .linear = 1};
-    world.object.front.ambient = WHITE;
-    transform_by(scaled(1, 2, 3));
-    assert_set("limit | 0 point ambient attenuation");
-}
-
 TEST_WITH(0, a_closed_object_seen_from_outside_is_culled_and_has_no_back, set_up, NULL)
 {
     world.object.closed = true;
@@ -472,36 +422,12 @@ TEST_WITH(0, a_closed_object_seen_from_outside_is_culled_and_has_no_back, set_up
     assert_said("without a back side: it is never seen");
     world.scene.camera.eye = (Vec3){0, 0, 1.05}; /* the near plane cuts the object */
     assert_set("two base alpha normals unit_fragment | 0 directional diffuse");
+    assert_said("alpha: the surface is not opaque");
     assert_said("without culling: the near plane may cut the object");
     assert_said("two-sided: the back has its own material and the opposite normal");
     world.scene.camera.eye = (Vec3){0, 0, 0.5}; /* the eye is inside */
     world.object.two_sided = false;
     assert_set("normals unit_fragment | 0 directional diffuse");
-}
-
-TEST_WITH(0, the_back_counts_only_where_two_sides_are_lit, set_up, NULL)
-{
-    world.lights[0].specular = WHITE;
-    world.object.back.specular = WHITE;
-    world.object.back.emission = WHITE;
-    world.object.back.alpha = 0.5;
-    assert_set("normals unit_fragment | 0 directional diffuse");
-    world.object.two_sided = true;
-    assert_set("two base alpha normals unit_fragment local | 0 directional diffuse specular");
-    assert_said("alpha: the surface is not opaque");
-}
-
-TEST_WITH(0, clamping_counts_only_where_lit_vertices_are_interpolated, set_up, NULL)
-{
-    world.scene.clamp_vertex = true;
-    assert_set("normals unit_fragment | 0 directional diffuse");
-    world.scene.interpolation = INTERPOLATION_GOURAUD;
-    assert_set("normals clamp | 0 directional diffuse at_vertex");
-    assert_said("clamping at the vertices: requested");
-    world.scene.interpolation = INTERPOLATION_PHONG;
-    world.object.mesh = &cube;
-    world.object.flat = true; /* at the vertices, but only as an optimization */
-    assert_set("normals | 0 directional diffuse at_vertex");
 }
 
 TEST_WITH(0, overexposure_is_tested_only_if_it_is_possible, set_up, NULL)
@@ -511,8 +437,10 @@ TEST_WITH(0, overexposure_is_tested_only_if_it_is_possible, set_up, NULL)
     assert_said("overexposed pixels highlighted: requested");
     world.scene.interpolation = INTERPOLATION_GOURAUD;
     assert_set("normals clipped | 0 directional diffuse at_vertex");
-    world.scene.clamp_vertex = true;
-    assert_set("normals clamp | 0 directional diffuse at_vertex");
+    world.scene.clamp_vertex = world.scene.linear = true;
+    assert_set("normals clamp linear | 0 directional diffuse at_vertex");
+    assert_said("clamping at the vertices: requested");
+    assert_said("sRGB encoding: requested");
     assert_said("without highlighting overexposed pixels: colours are clamped at the vertices");
 }
 
@@ -525,13 +453,6 @@ TEST_WITH(0, dot_products_are_clamped_unless_requested_and_under_lights_with_sha
     world.lights[0].shadows = true;
     assert_set("normals unit_fragment | 0 directional diffuse");
     assert_said("dot products clamped: none of a light with shadows arrives from behind");
-}
-
-TEST_WITH(0, linear_light_is_off_by_default, set_up, NULL)
-{
-    world.scene.linear = true;
-    assert_set("normals unit_fragment linear | 0 directional diffuse");
-    assert_said("sRGB encoding: requested");
 }
 
 /* Only whether a number is zero matters, and whether alpha is one. */
@@ -613,6 +534,7 @@ TEST_WITH(0, attenuation_is_guarded_unless_its_constant_coefficient_bounds_it, s
     assert_guarded(true);
     light->linear = 0; /* no attenuation */
     assert_guarded(false);
+    assert_said("without attenuation: constant");
 }
 
 static void assert_limited(bool expected)
@@ -653,6 +575,7 @@ TEST_WITH(0, a_group_is_guarded_if_any_of_its_lights_needs_it, set_up, NULL)
     assert_guarded(false);
     world.lights[1].constant = 0;
     assert_set("normals unit_fragment limit | 0 1 point diffuse attenuation");
+    assert_said("attenuation: depends on the distance");
     assert_guarded(true);
     assert_true(effects_full(&world.scene, &world.object).groups[0].guard_attenuation);
 }
