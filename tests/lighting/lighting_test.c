@@ -1,14 +1,193 @@
 /*
  * Pictures of the lighting model, and the programs that draw them: the specialized program
- * draws what the full program draws. The model itself: equation_test.c.
+ * draws what the full program draws. The model itself: closed_form_test.c, and the pictures of the
+ * reference, whose equation is the oracle's (reference_solid_test.c).
  */
+#include "core/canvas.h"
 #include "core/mesh_make.h"
 #include "hard/random_scene.h"
-#include "lighting/lighting_world.h"
+#include "lighting/lighting.h"
 #include "reference/reference.h"
 #include "support/effects_of.h"
 #include "support/picture_check.h"
 #include "support/testing.h"
+
+enum { SIZE = 64 };
+
+/* The color channels that a light and the material have in common, as bits. */
+enum { AMBIENT = 1, DIFFUSE = 2, SPECULAR = 4 };
+
+typedef enum Shape { SPHERE, CUBE, TUBE } Shape;
+typedef enum Turn { RIGID, EVEN, UNEVEN, SHEARED, MIRRORED, TURNS } Turn;
+
+/* A light's kind, with the properties that only this kind has. */
+typedef struct Kind {
+    LightKind kind;
+    double constant, linear, exponent;
+} Kind;
+
+typedef struct Case {
+    int terms[3]; /* of each light */
+    int kinds[3];
+    int light_count;
+    Shape shape;
+    Turn turn;
+    Interpolation interpolation;
+    Reflection reflection;
+    bool distant_viewer, two_sided, base, alpha;
+} Case;
+
+static Canvas canvas;
+static Lighting *lighting;
+static Image specialised, full; /* or any two pictures to be compared */
+static Mesh sphere, cube, tube;
+
+FIXTURE(open_all)
+{
+    SUCCEEDS(canvas_open(&canvas, &(CanvasOptions){.width = SIZE, .height = SIZE}, message) &&
+             lighting_open(&lighting, &(ShaderLoader){0}, message) &&
+             image_open(&specialised, SIZE, SIZE, IMAGE_BYTE, message) &&
+             image_open(&full, SIZE, SIZE, IMAGE_BYTE, message) &&
+             mesh_sphere(&sphere, 1, 24, 12, message) && mesh_cube(&cube, 0.8, message) &&
+             mesh_cylinder(&tube, (MeshCylinder){0.8, 1.5, 24, 4, MESH_CAP_NONE}, message));
+}
+
+FIXTURE(close_all)
+{
+    mesh_close(&tube);
+    mesh_close(&cube);
+    mesh_close(&sphere);
+    image_close(&full);
+    image_close(&specialised);
+    lighting_close(lighting);
+    canvas_close(&canvas);
+}
+
+/* Draws a scene, with its own program or with the full one. */
+static void render(const Scene *scene, bool with_all, Image *picture)
+{
+    picture_draw(&canvas, lighting, &(LightingFrame){.scene = scene, .full = with_all}, picture);
+}
+
+static unsigned char *pixel(const Image *image, int x, int y)
+{
+    return (unsigned char *)image->pixels + 4 * (y * SIZE + x);
+}
+
+static int levels_apart(const Image *a, const Image *b, int x, int y)
+{
+    int max = 0;
+    for (int c = 0; c < 4; c++) {
+        const int levels = abs(pixel(a, x, y)[c] - pixel(b, x, y)[c]);
+        max = levels > max ? levels : max;
+    }
+    return max;
+}
+
+/* Whether at most `exceptions` pixels are more than one level apart; keeps the pictures if not. */
+static bool pictures_agree(const char *name, const Image *a, const Image *b, int exceptions)
+{
+    int apart = 0;
+    for (int y = 0; y < SIZE; y++)
+        for (int x = 0; x < SIZE; x++)
+            apart += levels_apart(a, b, x, y) > 1;
+    if (apart <= exceptions)
+        return true;
+    printf("%s: %d pixels more than one level apart\n", name, apart);
+    picture_check_keep(name, a, b);
+    return false;
+}
+
+/* Scenes by their properties. */
+
+static const Kind KINDS[] = {
+    {LIGHT_DIRECTIONAL, 0, 0, 0}, {LIGHT_POINT, 0, 0, 0},    {LIGHT_POINT, 1.25, 0, 0},
+    {LIGHT_POINT, 0.5, 0.2, 0},   {LIGHT_SPOT, 0, 0, 0},     {LIGHT_SPOT, 0.5, 0.2, 0},
+    {LIGHT_SPOT, 0, 0, 8},        {LIGHT_SPOT, 0.5, 0.2, 8},
+};
+enum { KIND_COUNT = sizeof KINDS / sizeof KINDS[0] };
+
+static struct {
+    Light lights[32];
+    Object object;
+    Scene scene;
+} world;
+
+static Mat4 turn_matrix(Turn turn)
+{
+    const Mat4 turned = mat4_rotate(40, (Vec3){1, 0.5, 0.2});
+    const Mat4 turned_back = mat4_rotate(-65, (Vec3){0.1, 1, 0.3});
+    switch (turn) {
+    case EVEN:
+        return mat4_product(turned, mat4_scale((Vec3){0.7, 0.7, 0.7}));
+    case UNEVEN:
+        return mat4_product(turned, mat4_scale((Vec3){1.1, 0.6, 0.9}));
+    case SHEARED:
+        return mat4_product(mat4_scale((Vec3){1.1, 0.8, 0.6}),
+                            mat4_product(turned_back, mat4_scale((Vec3){0.6, 1, 1})));
+    case MIRRORED:
+        return mat4_product(turned, mat4_scale((Vec3){-1, 1, 1}));
+    default:
+        return turned;
+    }
+}
+
+static Light light_of(int number, int terms, Kind kind)
+{
+    static const Vec3 positions[3] = {{1.5, 1.25, 2.5}, {-2, 0.5, 1.75}, {0.5, -1.5, 3}};
+    static const Vec3 colors[3] = {{0.9, 0.7, 0.5}, {0.4, 0.6, 0.8}, {0.6, 0.3, 0.7}};
+    const Vec3 position = positions[number], color = colors[number], none = {0, 0, 0};
+    return (Light){
+        .kind = kind.kind,
+        .position = position,
+        .direction = kind.kind == LIGHT_SPOT ? vec3_scale(position, -1) : position,
+        .ambient = terms & AMBIENT ? vec3_scale(color, 0.4) : none,
+        .diffuse = terms & DIFFUSE ? color : none,
+        .specular = terms & SPECULAR ? color : none,
+        .cutoff = 13.7,
+        .exponent = kind.exponent,
+        .constant = kind.constant,
+        .linear = kind.linear,
+    };
+}
+
+static void make_world(const Case *c)
+{
+    static const Mesh *const meshes[] = {&sphere, &cube, &tube};
+    const Material front = {{0.8, 0.6, 0.4}, {0.7, 0.8, 0.6},    {0.9, 0.5, 0.7},
+                            {0, 0, 0},       c->alpha ? 0.6 : 1, 12};
+    const Material back = {{0.3, 0.5, 0.9}, {0.5, 0.4, 0.9},    {0.4, 0.9, 0.3},
+                           {0, 0, 0},       c->alpha ? 0.3 : 1, 30};
+    memset(&world, 0, sizeof world);
+    for (int i = 0; i < c->light_count; i++)
+        world.lights[i] = light_of(i, c->terms[i], KINDS[c->kinds[i]]);
+    world.object = (Object){.mesh = meshes[c->shape],
+                            .flat = c->shape == CUBE,
+                            .closed = c->shape != TUBE,
+                            .world_from_object = turn_matrix(c->turn),
+                            .front = front,
+                            .two_sided = c->two_sided,
+                            .back = back};
+    world.scene = (Scene){
+        .camera = {{0, 0.5, 4}, {0, 0, 0}, {0, 1, 0}, 40, 0.5, 20, 0},
+        .background = {0.2, 0.3, 0.4},
+        .global_ambient = c->base ? (Vec3){0.2, 0.15, 0.1} : (Vec3){0, 0, 0},
+        .lights = world.lights,
+        .light_count = c->light_count,
+        .objects = &world.object,
+        .object_count = 1,
+        .reflection = c->reflection,
+        .interpolation = c->interpolation,
+        .distant_viewer = c->distant_viewer,
+    };
+}
+
+/* Draws the world with its own program and with the full one. */
+static void draw_both(void)
+{
+    render(&world.scene, false, &specialised);
+    render(&world.scene, true, &full);
+}
 
 static void check_case(const Case *c)
 {
@@ -306,6 +485,38 @@ TEST(lights_that_are_left_out_change_no_pixel_by_more_than_half_a_step)
     lighting_forget(lighting, NULL);
     canvas_close(&floats);
     canvas_begin(&canvas);
+}
+
+/* The model-view matrix instead of the normal matrix. */
+TEST(wrong_normals_differ_only_where_the_scale_is_uneven)
+{
+    for (int turn = 0; turn < TURNS; turn++) {
+        make_world(&(Case){.terms = {7}, .light_count = 1, .turn = (Turn)turn, .base = true});
+        render(&world.scene, false, &full);
+        world.object.wrong_normals = true;
+        render(&world.scene, false, &specialised);
+        const bool same = memcmp(specialised.pixels, full.pixels, (size_t)SIZE * SIZE * 4) == 0;
+        assert_int_equal(same, turn != UNEVEN && turn != SHEARED);
+        render(&world.scene, true, &full);
+        assert_true(pictures_agree("wrong normals", &specialised, &full, 4));
+    }
+}
+
+TEST(flat_is_gouraud_with_the_normals_of_triangles)
+{
+    CLOSED(mesh_close) Mesh flat;
+    SUCCEEDS(mesh_copy(&flat, &sphere, message) && mesh_flatten(&flat, message));
+    make_world(&(Case){.terms = {7}, .kinds = {1}, .light_count = 1, .turn = UNEVEN});
+    world.scene.interpolation = INTERPOLATION_FLAT;
+    render(&world.scene, false, &specialised);
+    world.scene.interpolation = INTERPOLATION_GOURAUD;
+    render(&world.scene, false, &full);
+    assert_memory_not_equal(specialised.pixels, full.pixels, (size_t)SIZE * SIZE * 4);
+    world.object.mesh = &flat;
+    world.object.flat = true;
+    render(&world.scene, false, &full);
+    assert_true(pictures_agree("flat", &specialised, &full, 0));
+    lighting_forget(lighting, &flat);
 }
 
 /* Programs are shared. */

@@ -222,7 +222,8 @@ static Vec3 of_axes(const Vec3 axes[3], Vec3 v)
                     vec3_add(vec3_scale(axes[1], v.y), vec3_scale(axes[2], v.z)));
 }
 
-bool oracle_trace(const Scene *scene, int width, int height, int x, int y, OraclePoint *hit)
+/* What the ray through a pixel's centre meets first. */
+static bool trace(const Scene *scene, int width, int height, int x, int y, OraclePoint *hit)
 {
     const Camera *camera = &scene->camera;
     /* What is seen of the width stays in narrow pictures. */
@@ -253,9 +254,7 @@ bool oracle_trace(const Scene *scene, int width, int height, int x, int y, Oracl
             is_mesh(object) ? nearest.normal : mat4_transform_direction(normals, nearest.normal));
         *hit = (OraclePoint){.object = object,
                              .back = behind != object->clockwise && object->two_sided,
-                             .point = vec3_add(camera->eye, vec3_scale(way, nearest.t)),
-                             .place = at(&ray, nearest.t),
-                             .steepness = fabs(vec3_dot(outside, vec3_unit(way)))};
+                             .point = vec3_add(camera->eye, vec3_scale(way, nearest.t))};
         hit->normal = vec3_scale(outside, hit->back ? -1 : 1);
         hit->viewer = scene->distant_viewer ? axes[2] : vec3_unit(vec3_scale(way, -1));
     }
@@ -325,8 +324,12 @@ Vec3 oracle_light(const Scene *scene, OraclePoint *at)
     return sum;
 }
 
-void oracle_show(const Scene *scene, Vec3 sum, double color[3])
+bool oracle_color(const Scene *scene, int width, int height, int x, int y, double color[3])
 {
+    OraclePoint hit;
+    if (!trace(scene, width, height, x, y, &hit))
+        return false;
+    const Vec3 sum = oracle_light(scene, &hit);
     const double channels[3] = {sum.x, sum.y, sum.z};
     const bool clipped = scene->show_clipped && fmax(sum.x, fmax(sum.y, sum.z)) > 1;
     for (int k = 0; k < 3; k++) {
@@ -335,14 +338,6 @@ void oracle_show(const Scene *scene, Vec3 sum, double color[3])
             value = value <= 0.0031308 ? 12.92 * value : 1.055 * pow(value, 1 / 2.4) - 0.055;
         color[k] = 255 * value;
     }
-}
-
-bool oracle_color(const Scene *scene, int width, int height, int x, int y, double color[3])
-{
-    OraclePoint hit;
-    if (!oracle_trace(scene, width, height, x, y, &hit))
-        return false;
-    oracle_show(scene, oracle_light(scene, &hit), color);
     return true;
 }
 

@@ -18,15 +18,9 @@ typedef struct OraclePoint {
     bool back;          /* the side that is lit is the back's, with its material */
     Vec3 point, normal; /* unit, on the side that is lit */
     Vec3 viewer;        /* the direction towards it, unit */
-    Vec3 place;         /* the point in object coordinates */
-    double steepness;   /* cosine between ray and surface */
     double from_jump;   /* oracle_light sets it: how far a cosine is from where light jumps: a
                            cone's edge, and N.L = 0 if there is a highlight */
 } OraclePoint;
-
-/* What the ray through a pixel's centre meets first; false: nothing, or something without formula.
- */
-bool oracle_trace(const Scene *scene, int width, int height, int x, int y, OraclePoint *hit);
 
 /* How far a point is outside a closed solid; negative inside. */
 double oracle_outside(const Solid *solid, Vec3 p);
@@ -35,11 +29,8 @@ double oracle_outside(const Solid *solid, Vec3 p);
  * normal, viewer. */
 Vec3 oracle_light(const Scene *scene, OraclePoint *at);
 
-/* The colour that is shown of a sum, in steps of 1/255: clamped, marked or encoded as the scene
- * says. */
-void oracle_show(const Scene *scene, Vec3 sum, double color[3]);
-
-/* All three. */
+/* The colour, in steps of 1/255, that is shown at a pixel's centre: clamped, marked or encoded as
+ * the scene says. False: nothing is met there, or something without formula. */
 bool oracle_color(const Scene *scene, int width, int height, int x, int y, double color[3]);
 
 /*
