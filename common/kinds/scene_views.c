@@ -11,7 +11,8 @@ SceneState *scene_state(const Renderer *renderer)
 
 int scene_view_grid(const SceneExample *example, int *columns, int *rows)
 {
-    *columns = *rows = 1;
+    *columns = example->columns ? example->columns : 1;
+    *rows = example->rows ? example->rows : 1;
     if (example->layout)
         example->layout(columns, rows);
     return *columns * *rows;

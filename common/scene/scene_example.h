@@ -33,7 +33,8 @@ typedef struct FallibleExample {
 typedef struct SceneExample {
     /* Fills in the scene at a time. The example owns what it points to, until the next call. */
     void (*make)(double seconds, int view, Scene *scene);
-    /* The grid of views in the picture, in row order; NULL: one view. */
+    /* The grid of views in the picture, in row order; 0: 1. NULL: it depends on no option. */
+    int columns, rows;
     void (*layout)(int *columns, int *rows);
     /* Changes the size of the picture without --size, where that depends on an option; may be NULL.
      */

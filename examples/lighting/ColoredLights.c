@@ -75,12 +75,6 @@ static void scene(double seconds, int view, Scene *scene)
     scene_shading_apply(&shading, scene);
 }
 
-static void layout(int *columns, int *rows)
-{
-    *columns = 1;
-    *rows = VIEWS;
-}
-
 static const char *label(int view)
 {
     static const char *const labels[VIEWS] = {"white light", "red light", "green light",
@@ -108,6 +102,6 @@ const Example ColoredLights = {
     .init = init,
     .finish = finish,
     .kind = &SCENE_KIND,
-    .content = &(const SceneExample){.make = scene, .layout = layout, .label = label},
+    .content = &(const SceneExample){.make = scene, .columns = 1, .rows = VIEWS, .label = label},
     .parameters = parameters,
 };

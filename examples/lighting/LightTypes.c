@@ -100,12 +100,6 @@ static void annotate(double seconds, int view, const Scene *scene, Annotations *
     overlay_add_lights(&annotations->points, scene);
 }
 
-static void layout(int *columns, int *rows)
-{
-    *columns = 3;
-    *rows = 2;
-}
-
 static const char *label(int view)
 {
     static const char *const labels[] = {
@@ -133,7 +127,8 @@ const Example LightTypes = {
     .init = init,
     .finish = finish,
     .kind = &SCENE_KIND,
-    .content = &(
-        const SceneExample){.make = scene, .annotate = annotate, .layout = layout, .label = label},
+    .content =
+        &(const SceneExample){
+            .make = scene, .annotate = annotate, .columns = 3, .rows = 2, .label = label},
     .parameters = parameters,
 };

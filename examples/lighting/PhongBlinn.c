@@ -71,12 +71,6 @@ static void scene(double seconds, int view, Scene *scene)
     scene->reflection = view == 1 ? REFLECTION_BLINN_PHONG : REFLECTION_PHONG;
 }
 
-static void layout(int *columns, int *rows)
-{
-    *columns = 3;
-    *rows = 1;
-}
-
 static const char *label(int view)
 {
     static char text[64];
@@ -124,6 +118,7 @@ const Example PhongBlinn = {
     .finish = finish,
     .kind = &SCENE_KIND,
     .content =
-        &(const SceneExample){.make = scene, .layout = layout, .label = label, .retouch = retouch},
+        &(const SceneExample){
+            .make = scene, .columns = 3, .rows = 1, .label = label, .retouch = retouch},
     .parameters = parameters,
 };

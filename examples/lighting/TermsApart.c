@@ -183,12 +183,6 @@ static bool init(const ShaderLoader *loader, Message *message)
            make_labels(loader, message);
 }
 
-static void layout(int *columns, int *rows)
-{
-    *columns = VIEWS / 2;
-    *rows = 2;
-}
-
 static const char *label(int view)
 {
     return state.labels[view];
@@ -217,8 +211,10 @@ const Example TermsApart = {
     .init = init,
     .finish = finish,
     .kind = &SCENE_KIND,
-    .content =
-        &(const SceneExample){
-            .make = scene, .layout = layout, .label = label, .plain_label = plain_label},
+    .content = &(const SceneExample){.make = scene,
+                                     .columns = VIEWS / 2,
+                                     .rows = 2,
+                                     .label = label,
+                                     .plain_label = plain_label},
     .parameters = parameters,
 };

@@ -228,11 +228,10 @@ TEST(every_pixel_of_every_view_counts_once)
             const long long pixels = cases[way][i].expected.all.pixels;
             if (!is_drawn(way, i))
                 continue;
-            int columns = 1, rows = 1;
-            if (example_scene(EXAMPLES[i])->layout)
-                example_scene(EXAMPLES[i])->layout(&columns, &rows);
+            int columns, rows;
+            const int count = scene_view_grid(example_scene(EXAMPLES[i]), &columns, &rows);
             /* PhongBlinn's third view is the difference of the others, not a scene. */
-            const int views = EXAMPLES[i] == &PhongBlinn ? 2 : columns * rows;
+            const int views = EXAMPLES[i] == &PhongBlinn ? 2 : count;
             assert_int_equal(pixels, views * (options->width / columns) * (options->height / rows));
         }
     }

@@ -7,6 +7,7 @@
  */
 #include "base/random.h"
 #include "core/mesh_make.h"
+#include "kinds/scene_views.h"
 #include "lighting/shadow_world.h"
 #include "scene/scene_example.h"
 #include "support/examples.h"
@@ -29,11 +30,10 @@ TEST(programs_draw_the_shadows_of_the_reference)
     bool all = true;
     for (int i = 0; i < EXAMPLE_COUNT; i++) {
         const Example *example = EXAMPLES[i];
-        int columns = 1, rows = 1;
+        int columns, rows;
         SUCCEEDS(example->init(&(ShaderLoader){.precision = "highp"}, message));
-        if (example_scene(example)->layout)
-            example_scene(example)->layout(&columns, &rows);
-        for (int view = 0; view < columns * rows; view++) {
+        const int views = scene_view_grid(example_scene(example), &columns, &rows);
+        for (int view = 0; view < views; view++) {
             for (int t = 0; t < 2; t++) {
                 char name[96];
                 Scene scene = {.object_count = 0};

@@ -8,6 +8,7 @@
  * rounding to 8 bits alone makes 0.5, and arithmetic in 32 bits with a shininess up to 128 less
  * than the other half.
  */
+#include "kinds/scene_views.h"
 #include "lighting/lighting.h"
 #include "reference/picture_error.h"
 #include "scene/scene_example.h"
@@ -85,11 +86,10 @@ TEST(scenes_are_drawn_as_the_reference_has_them)
     bool all = true;
     for (int i = 0; i < EXAMPLE_COUNT; i++) {
         const Example *example = EXAMPLES[i];
-        int columns = 1, rows = 1;
+        int columns, rows;
         SUCCEEDS(example->init(&(ShaderLoader){.only_texts = true}, message));
-        if (example_scene(example)->layout)
-            example_scene(example)->layout(&columns, &rows);
-        for (int view = 0; view < columns * rows; view++) {
+        const int views = scene_view_grid(example_scene(example), &columns, &rows);
+        for (int view = 0; view < views; view++) {
             for (int t = (i + view) % every; t < 2; t += every) {
                 char name[64];
                 Scene scene = {.object_count = 0};
