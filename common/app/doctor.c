@@ -56,13 +56,13 @@ static bool png_probe(Message *findings)
 
 static bool model_probe(Message *findings)
 {
-    static Plugin models = PLUGIN_MODELS;
+    static Plugin models = {PLUGIN_MODELS};
     return plugin_probe(&models, findings);
 }
 
 static bool drawing_probe(Message *findings)
 {
-    static Plugin drawings = PLUGIN_DRAWINGS;
+    static Plugin drawings = {PLUGIN_DRAWINGS};
     return plugin_probe(&drawings, findings);
 }
 

@@ -21,13 +21,9 @@ typedef struct Plugin {
 
 /* Of modules that a program may lack, and --doctor reports all the same. */
 #define PLUGIN_MODELS                                                                              \
-    {                                                                                              \
-        "model_assimp.so", "model_module", "Assimp", "model files", "libassimp-dev", NULL          \
-    }
+    "model_assimp.so", "model_module", "Assimp", "model files", "libassimp-dev", NULL
 #define PLUGIN_DRAWINGS                                                                            \
-    {                                                                                              \
-        "drawing_cairo.so", "drawing_plugin", "cairo", "diagrams", "libcairo2-dev", NULL           \
-    }
+    "drawing_cairo.so", "drawing_plugin", "cairo", "diagrams", "libcairo2-dev", NULL
 
 /* Loads the plugin at the first call, from any thread, and returns its variable; NULL on failure,
  * with a message that names the package. */

@@ -166,7 +166,7 @@ void drawing_text(Drawing *drawing, DrawingPoint at, double size, Vec3 color, co
 
 /* Files. */
 
-static Plugin cairo = PLUGIN_DRAWINGS;
+static Plugin cairo = {PLUGIN_DRAWINGS};
 
 static const DrawingPlugin *open_cairo(Message *message)
 {

@@ -21,37 +21,32 @@ typedef struct Effect {
     size_t at, size;
 } Effect;
 
-#define OF_OBJECT(name, member)                                                                    \
-    {                                                                                              \
-        name, offsetof(Effects, member), sizeof(bool)                                              \
-    }
+#define OF_OBJECT(name, member) name, offsetof(Effects, member), sizeof(bool)
 #define OF_LIGHT(name, member)                                                                     \
-    {                                                                                              \
-        "  " name, offsetof(LightGroup, member), sizeof(((LightGroup *)0)->member)                 \
-    }
+    "  " name, offsetof(LightGroup, member), sizeof(((LightGroup *)0)->member)
 static const Effect EFFECTS[] = {
-    OF_OBJECT("two-sided", two_sided),
-    OF_OBJECT("base", base),
-    OF_OBJECT("alpha", alpha),
-    OF_OBJECT("vertex colours", vertex_color),
-    OF_OBJECT("local viewer", local_viewer),
-    OF_OBJECT("normal matrix", normal_matrix),
-    OF_OBJECT("normals normalized at the vertices", normalize_vertex),
-    OF_OBJECT("normals normalized at the fragments", normalize_fragment),
-    OF_OBJECT("clamping at the vertices", clamp_vertex),
-    OF_OBJECT("overexposed pixels highlighted", show_clipped),
-    OF_OBJECT("sRGB encoding", linear),
-    OF_OBJECT("colours limited", limit),
-    OF_LIGHT("ambient", terms.ambient),
-    OF_LIGHT("diffuse", terms.diffuse),
-    OF_LIGHT("specular", terms.specular),
-    OF_LIGHT("half vector", terms.half_vector),
-    OF_LIGHT("attenuation", terms.attenuation),
-    OF_LIGHT("range", terms.range),
-    OF_LIGHT("spot", terms.kind),
-    OF_LIGHT("shadow", terms.shadow),
-    OF_LIGHT("dot products not clamped", terms.signed_dots),
-    OF_LIGHT("guard of the attenuation", guard_attenuation),
+    {OF_OBJECT("two-sided", two_sided)},
+    {OF_OBJECT("base", base)},
+    {OF_OBJECT("alpha", alpha)},
+    {OF_OBJECT("vertex colours", vertex_color)},
+    {OF_OBJECT("local viewer", local_viewer)},
+    {OF_OBJECT("normal matrix", normal_matrix)},
+    {OF_OBJECT("normals normalized at the vertices", normalize_vertex)},
+    {OF_OBJECT("normals normalized at the fragments", normalize_fragment)},
+    {OF_OBJECT("clamping at the vertices", clamp_vertex)},
+    {OF_OBJECT("overexposed pixels highlighted", show_clipped)},
+    {OF_OBJECT("sRGB encoding", linear)},
+    {OF_OBJECT("colours limited", limit)},
+    {OF_LIGHT("ambient", terms.ambient)},
+    {OF_LIGHT("diffuse", terms.diffuse)},
+    {OF_LIGHT("specular", terms.specular)},
+    {OF_LIGHT("half vector", terms.half_vector)},
+    {OF_LIGHT("attenuation", terms.attenuation)},
+    {OF_LIGHT("range", terms.range)},
+    {OF_LIGHT("spot", terms.kind)},
+    {OF_LIGHT("shadow", terms.shadow)},
+    {OF_LIGHT("dot products not clamped", terms.signed_dots)},
+    {OF_LIGHT("guard of the attenuation", guard_attenuation)},
 };
 enum { EFFECT_COUNT = sizeof EFFECTS / sizeof EFFECTS[0] };
 

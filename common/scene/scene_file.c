@@ -22,17 +22,15 @@
 FileListPlace scene_file_list(SceneFile *file, FileList list)
 {
 #define LIST(items, name, most)                                                                    \
-    {                                                                                              \
-        name, (void **)&file->items##s, &file->items##_count, sizeof *file->items##s, most         \
-    }
+    name, (void **)&file->items##s, &file->items##_count, sizeof *file->items##s, most
     const FileListPlace places[FILE_LISTS] = {
-        [FILE_NODES] = LIST(node, "nodes", FILE_ITEMS_MAX),
-        [FILE_OBJECTS] = LIST(object, "objects", FILE_ITEMS_MAX),
-        [FILE_LIGHTS] = LIST(light, "lights", FILE_ITEMS_MAX),
-        [FILE_CAMERAS] = LIST(camera, "cameras", FILE_ITEMS_MAX),
-        [FILE_CHANNELS] = LIST(channel, "channels of animations", FILE_ITEMS_MAX),
-        [FILE_KEYS] = LIST(key, "keys of animations", FILE_KEYS_MAX),
-        [FILE_NOTES] = LIST(note, "notes", 100),
+        [FILE_NODES] = {LIST(node, "nodes", FILE_ITEMS_MAX)},
+        [FILE_OBJECTS] = {LIST(object, "objects", FILE_ITEMS_MAX)},
+        [FILE_LIGHTS] = {LIST(light, "lights", FILE_ITEMS_MAX)},
+        [FILE_CAMERAS] = {LIST(camera, "cameras", FILE_ITEMS_MAX)},
+        [FILE_CHANNELS] = {LIST(channel, "channels of animations", FILE_ITEMS_MAX)},
+        [FILE_KEYS] = {LIST(key, "keys of animations", FILE_KEYS_MAX)},
+        [FILE_NOTES] = {LIST(note, "notes", 100)},
         [FILE_MESHES] = {"meshes", (void **)&file->meshes, &file->mesh_count, sizeof *file->meshes,
                          FILE_ITEMS_MAX},
     };

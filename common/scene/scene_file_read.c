@@ -21,7 +21,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-static Plugin assimp = PLUGIN_MODELS;
+static Plugin assimp = {PLUGIN_MODELS};
 
 static bool check_file(const char *path, off_t *size, Message *message)
 {

@@ -59,22 +59,10 @@ typedef struct BenchColumn {
     bool alone; /* the median without its quartiles */
 } BenchColumn;
 
-#define BENCH_TIME(of, scale, digits)                                                              \
-    {                                                                                              \
-        scale, digits, of, -1, -1, -1, false                                                       \
-    }
-#define BENCH_RATIO(of, over, digits)                                                              \
-    {                                                                                              \
-        1, digits, of, -1, over, -1, false                                                         \
-    }
-#define BENCH_RATE(over, scale, digits)                                                            \
-    {                                                                                              \
-        scale, digits, -1, -1, over, -1, false                                                     \
-    }
-#define BENCH_MEDIAN(of, scale, digits)                                                            \
-    {                                                                                              \
-        scale, digits, of, -1, -1, -1, true                                                        \
-    }
+#define BENCH_TIME(of, scale, digits) scale, digits, of, -1, -1, -1, false
+#define BENCH_RATIO(of, over, digits) 1, digits, of, -1, over, -1, false
+#define BENCH_RATE(over, scale, digits) scale, digits, -1, -1, over, -1, false
+#define BENCH_MEDIAN(of, scale, digits) scale, digits, of, -1, -1, -1, true
 
 /* "1.23 [1.20, 1.30]" */
 typedef struct BenchCell {

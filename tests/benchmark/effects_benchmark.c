@@ -301,21 +301,21 @@ static void print_times(const BenchRun runs[MEASURED])
         const char *name;
         BenchColumn ratio;
     } ratios[] = {
-        {"the simplest lit scene over the same again (A/A)", BENCH_RATIO(2 * DIFFUSE, AGAIN, 2)},
+        {"the simplest lit scene over the same again (A/A)", {BENCH_RATIO(2 * DIFFUSE, AGAIN, 2)}},
         {"the simplest lit scene over shaders written by hand for it",
-         BENCH_RATIO(2 * DIFFUSE, BY_HAND_TOO, 2)},
-        {"4 point lights, 3 of them off, over one", BENCH_RATIO(2 * THREE_OFF, 2 * POINT, 2)},
-        {"Blinn-Phong over Phong, all at infinity", BENCH_RATIO(2 * FAR, 2 * FAR_PHONG, 2)},
+         {BENCH_RATIO(2 * DIFFUSE, BY_HAND_TOO, 2)}},
+        {"4 point lights, 3 of them off, over one", {BENCH_RATIO(2 * THREE_OFF, 2 * POINT, 2)}},
+        {"Blinn-Phong over Phong, all at infinity", {BENCH_RATIO(2 * FAR, 2 * FAR_PHONG, 2)}},
         {"Phong over Blinn-Phong, a point light and a local viewer",
-         BENCH_RATIO(2 * (POINT + 1), 2 * POINT, 2)},
+         {BENCH_RATIO(2 * (POINT + 1), 2 * POINT, 2)}},
     };
     Table table;
     table_open(&table, "a frame of 400x400|ms|full, ms|over full|over the scene before");
     for (int i = 0; i < STEPS; i++) {
         const int mine = 2 * i + MINE, full = 2 * i + FULL;
-        const BenchColumn columns[] = {BENCH_TIME(mine, 1e3 / FRAMES, 2),
-                                       BENCH_MEDIAN(full, 1e3 / FRAMES, 2),
-                                       BENCH_RATIO(mine, full, 2),
+        const BenchColumn columns[] = {{BENCH_TIME(mine, 1e3 / FRAMES, 2)},
+                                       {BENCH_MEDIAN(full, 1e3 / FRAMES, 2)},
+                                       {BENCH_RATIO(mine, full, 2)},
                                        {i > 0 && i < THREE_OFF, 2, mine, -1, mine - 2, -1, false}};
         bench_row(&table, runs, columns, 4, "%s", steps[i].name);
     }

@@ -30,7 +30,7 @@ static bool draw_frames(void *argument, Message *message)
 static bool measure_example(const Example *example, const char *precision, Table *table,
                             Message *message)
 {
-    static const BenchColumn columns[] = {BENCH_TIME(0, 1e3 / FRAMES, 2), BENCH_RATIO(0, 1, 1)};
+    static const BenchColumn columns[] = {{BENCH_TIME(0, 1e3 / FRAMES, 2)}, {BENCH_RATIO(0, 1, 1)}};
     const DrawRequest request = {.shaders = {.precision = precision}};
     Renderer renderer;
     Run draw = {&renderer, &request}, clear = {NULL, &request};

@@ -95,8 +95,9 @@ static bool draw_then_write_default(__attribute__((unused)) void *argument, Mess
 static bool run(Message *message)
 {
     enum { DRAW, WRITE, DEFAULT, COUNT };
-    static const BenchColumn rate = BENCH_RATE(0, FRAMES, 0), alone = BENCH_RATIO(DRAW, WRITE, 2),
-                             plain = BENCH_RATIO(DEFAULT, WRITE, 1);
+    static const BenchColumn rate = {BENCH_RATE(0, FRAMES, 0)},
+                             alone = {BENCH_RATIO(DRAW, WRITE, 2)},
+                             plain = {BENCH_RATIO(DEFAULT, WRITE, 1)};
     BenchRun runs[COUNT] = {
         [DRAW] = {"drawing and reading back alone", draw_only, NULL, NULL, 0},
         [WRITE] = {"and writing PNG files, in parallel", draw_and_write, NULL, NULL, 0},

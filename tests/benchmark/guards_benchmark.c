@@ -128,7 +128,7 @@ static bool draw_frames(void *argument, Message *message)
 static bool measure_world(const World *world, Lighting *const lightings[GUARD_COUNT + 1],
                           Message *message)
 {
-    static const BenchColumn time = BENCH_MEDIAN(0, 1e3 / FRAMES, 2);
+    static const BenchColumn time = {BENCH_MEDIAN(0, 1e3 / FRAMES, 2)};
     Run drawn[GUARD_COUNT + 1];
     BenchRun runs[GUARD_COUNT + 1];
     Table table;
@@ -143,7 +143,7 @@ static bool measure_world(const World *world, Lighting *const lightings[GUARD_CO
                  bench_cell(runs, &time).text);
         table_open(&table, "without|guarded over that");
         for (int i = 0; i < GUARD_COUNT; i++)
-            bench_row(&table, runs, &(BenchColumn)BENCH_RATIO(0, i + 1, 3), 1, "%s",
+            bench_row(&table, runs, &(BenchColumn){BENCH_RATIO(0, i + 1, 3)}, 1, "%s",
                       GUARDS[i].name);
         bench_print(title, &table);
     }

@@ -251,7 +251,7 @@ static bool run_batches(void *argument, __attribute__((unused)) Message *message
 static void put_row(Table *table, const Comparison *comparison, int k, const BenchRun *runs)
 {
     const Algorithm *algorithm = &comparison->algorithms[k];
-    const BenchColumn time = BENCH_TIME(k, 1e9 / (COUNT * REPEATS), 1);
+    const BenchColumn time = {BENCH_TIME(k, 1e9 / (COUNT * REPEATS), 1)};
     char errors[DECADES][24] = {{0}};
     for (int i = 0; i < DECADES && algorithm->run && !algorithm->again; i++)
         snprintf(errors[i], sizeof errors[i], "%.0e/%.0e", comparison->errors[k][i][0],
@@ -290,7 +290,7 @@ static bool compare(const Comparison *comparison, Message *message)
     for (int k = 1; k < comparison->count && done; k++)
         if (comparison->algorithms[k].again)
             table_row(&table, "A/A||||||||%s",
-                      bench_cell(runs, &(BenchColumn)BENCH_RATIO(k, k - 1, 3)).text);
+                      bench_cell(runs, &(BenchColumn){BENCH_RATIO(k, k - 1, 3)}).text);
     bench_print(comparison->title, &table);
     bench_finish(runs, comparison->count);
     return done;

@@ -174,8 +174,9 @@ static bool measure_both(Table *table, int object_count, int light_count, double
     BenchRun both[] = {{"loop", draw_loop, NULL, NULL, 0},
                        {"lighting", draw_lighting, NULL, NULL, 0}};
     make_scene(object_count, light_count, false);
-    const BenchColumn columns[] = {BENCH_TIME(0, scale / frames, 2),
-                                   BENCH_TIME(1, scale / frames, 2), BENCH_RATIO(1, 0, 2)};
+    const BenchColumn columns[] = {{BENCH_TIME(0, scale / frames, 2)},
+                                   {BENCH_TIME(1, scale / frames, 2)},
+                                   {BENCH_RATIO(1, 0, 2)}};
     const bool done = mesh_buffer_open(&buffer, drawn, message) && draw_lighting(NULL, message) &&
                       open_loop(message) && bench_rounds(both, 2, ROUNDS, message);
     if (done)
@@ -234,8 +235,8 @@ static bool measure_scene(Table *table, const char *name, Message *message)
     enum { FRAMES = 3 };
     BenchRun both[] = {{name, draw_lighting, NULL, NULL, 0},
                        {"full", draw_lighting, &scene, NULL, 0}};
-    const BenchColumn columns[] = {BENCH_TIME(0, 1e3 / FRAMES, 2), BENCH_TIME(1, 1e3 / FRAMES, 2),
-                                   BENCH_RATIO(0, 1, 2)};
+    const BenchColumn columns[] = {
+        {BENCH_TIME(0, 1e3 / FRAMES, 2)}, {BENCH_TIME(1, 1e3 / FRAMES, 2)}, {BENCH_RATIO(0, 1, 2)}};
     size_t triangles = 0;
     frames = FRAMES;
     for (int i = 0; i < scene.object_count; i++)
@@ -308,7 +309,7 @@ static bool measure_shadows(Message *message)
             make_scene(casters[c], light_counts[l], true);
             frames = casters[c] < 10 ? 10 : 1;
             const double scale = 1e6 / ((double)casters[c] * light_counts[l] * frames);
-            const BenchColumn columns[] = {BENCH_TIME(0, scale, 1), BENCH_TIME(1, scale, 1)};
+            const BenchColumn columns[] = {{BENCH_TIME(0, scale, 1)}, {BENCH_TIME(1, scale, 1)}};
             done = bench_rounds(both, 2, 3, message);
             if (done)
                 bench_row(&table, both, columns, 2, "%d|%d", casters[c], light_counts[l]);

@@ -83,7 +83,7 @@ static bool run_command(void *argument, Message *message)
 
 static void put_row(Table *table, const BenchRun *runs, int row)
 {
-    const BenchColumn columns[] = {BENCH_TIME(row, 1e3, 1), BENCH_RATIO(row, FLOOR, 2)};
+    const BenchColumn columns[] = {{BENCH_TIME(row, 1e3, 1)}, {BENCH_RATIO(row, FLOOR, 2)}};
     bench_row(table, runs, columns, 2, "%s", COMMANDS[row].name);
 }
 
@@ -93,7 +93,7 @@ static void put_gallery(Table *table, const BenchRun *runs, bool smooth)
     static const double MAX_GALLERY_OF_ONE = 1.5, MAX_FURTHER_MS[] = {6, 10};
     const int draw = smooth ? DRAW_SMOOTH : DRAW, one = smooth ? ONE_SMOOTH : ONE;
     const int all = smooth ? ALL_SMOOTH : ALL, samples = smooth ? 4 : 0;
-    const BenchColumn ratio = BENCH_RATIO(one, draw, 2);
+    const BenchColumn ratio = {BENCH_RATIO(one, draw, 2)};
     const BenchColumn further = {1e3 / (SCENES - 1), 1, all, one, -1, -1, false};
     table_row(table, "gallery of one over the picture, --samples %d, at most %.1f||%s", samples,
               MAX_GALLERY_OF_ONE, bench_cell(runs, &ratio).text);

@@ -100,7 +100,7 @@ static bool trace_program(void *argument, Message *message)
 
 static bool run(Message *message)
 {
-    static const BenchColumn time = BENCH_TIME(0, 1e3, 1);
+    static const BenchColumn time = {BENCH_TIME(0, 1e3, 1)};
     ReferenceOptions options = EXACT(0);
     BenchRun runs[ROWS] = {
         [PROGRAM] = {"Shadows, with three lights", trace_program, &options, NULL, 0}};

@@ -110,10 +110,11 @@ static bool draw(void *argument, Message *message)
 
 static bool measure_setting(Setting *setting, Table *table, Message *message)
 {
-    static const BenchColumn columns[] = {
-        BENCH_TIME(WITHOUT, 1e3 / FRAMES, 2), BENCH_RATIO(AGAIN, WITHOUT, 2),
-        BENCH_RATIO(VOLUMES, WITHOUT, 2), BENCH_RATIO(MAP, WITHOUT, 2),
-        BENCH_RATIO(MOVING_MAP, WITHOUT, 2)};
+    static const BenchColumn columns[] = {{BENCH_TIME(WITHOUT, 1e3 / FRAMES, 2)},
+                                          {BENCH_RATIO(AGAIN, WITHOUT, 2)},
+                                          {BENCH_RATIO(VOLUMES, WITHOUT, 2)},
+                                          {BENCH_RATIO(MAP, WITHOUT, 2)},
+                                          {BENCH_RATIO(MOVING_MAP, WITHOUT, 2)}};
     BenchRun runs[WAYS];
     for (int way = 0; way < WAYS; way++)
         runs[way] = (BenchRun){setting->name, draw, &setting->ways[way], NULL, 0};

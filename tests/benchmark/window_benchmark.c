@@ -71,11 +71,11 @@ static bool window_frames(void *argument, Message *message)
 static bool measure_example(const Example *example, Canvas *canvas, Table *table, Message *message)
 {
     enum { HEADLESS, COPY, WINDOW, AGAIN, COUNT };
-    static const BenchColumn columns[] = {BENCH_MEDIAN(HEADLESS, 1e3 / FRAMES, 2),
-                                          BENCH_MEDIAN(COPY, 1e3 / FRAMES, 2),
-                                          BENCH_MEDIAN(WINDOW, 1e3 / FRAMES, 2),
+    static const BenchColumn columns[] = {{BENCH_MEDIAN(HEADLESS, 1e3 / FRAMES, 2)},
+                                          {BENCH_MEDIAN(COPY, 1e3 / FRAMES, 2)},
+                                          {BENCH_MEDIAN(WINDOW, 1e3 / FRAMES, 2)},
                                           {1, 2, WINDOW, -1, HEADLESS, COPY, false},
-                                          BENCH_RATIO(AGAIN, WINDOW, 2)};
+                                          {BENCH_RATIO(AGAIN, WINDOW, 2)}};
     const DrawRequest request = {.fps = 30};
     Renderer renderer;
     Run drawn = {&renderer, canvas, &request};

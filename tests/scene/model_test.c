@@ -679,7 +679,7 @@ TEST(a_missing_plugin_names_its_package)
 int main(void)
 {
     testing_seed48(seed);
-    Plugin plugin = PLUGIN_MODELS;
+    Plugin plugin = {PLUGIN_MODELS};
     if (!plugin_probe(&plugin, NULL))
         return EXIT_SKIPPED;
     return testing_run(0, "model", testing_enter_folder, testing_leave_empty_folder);
