@@ -77,6 +77,8 @@ const Lab = (() => {
         part("error").textContent = await draw(false) || "";
     }
 
+    const FIRST = /^(Wrong first|Below in the picture)/;
+
     /* A mistake's name, and what is wrong and where only to those who ask. */
     function hint({name, sentence, look, sure}) {
         const more = (title, text) => element("details", {}, element("summary", {}, title), text);
@@ -95,7 +97,9 @@ const Lab = (() => {
         nodes.push(...list((verdict.parts || []).map(({name, state, points, most}) =>
                            element("li", {}, name + ": " + state + ", " + points + " of " + most + " points")), "Parts"),
                    ...list(verdict.mistakes.map(hint), "Mistakes"),
-                   ...list(verdict.symptoms.map(text => element("li", {}, text)), "Symptoms"));
+                   ...list(verdict.symptoms.filter(text => !FIRST.test(text)).map(text => element("li", {}, text)), "Symptoms"));
+        for (const text of verdict.symptoms.filter(text => FIRST.test(text)))
+            nodes.push(element("details", {}, element("summary", {}, "Hint: the value that is wrong first"), text));
         if (sheet) {
             const canvas = element("canvas", {id: "sheet", role: "img",
                                               "aria-label": "The worst scene: drawn, right, difference"});

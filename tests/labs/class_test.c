@@ -94,17 +94,6 @@ TEST_WITH(0, folders_are_safe_and_distinct, start, NULL)
     assert_string_equal(folders[1], "a_b");
 }
 
-/* A name that another student's folder has after hashing. */
-TEST_WITH(0, no_name_is_that_of_anothers_folder, start, NULL)
-{
-    ClassName first = {.student = "Zo\xC3\xAB \xC5\x81ukasz"}, second = {.student = ""};
-    char folder[CLASS_FOLDER_SIZE], other[CLASS_FOLDER_SIZE];
-    class_name_folder(&first, folder);
-    snprintf(second.student, sizeof second.student, "%.100s", folder);
-    class_name_folder(&second, other);
-    assert_string_not_equal(folder, other);
-}
-
 /* Verdicts. */
 
 static const char GOOD[] =
@@ -140,23 +129,16 @@ static bool read_changed(const char *old, const char *new, Verdict *verdict)
     return verdict_read(text, strlen(text), lab, verdict, &message);
 }
 
-static bool read_with_cost(const char *counts, Verdict *verdict)
-{
-    char cost[200];
-    snprintf(cost, sizeof cost, "\"cost\":{\"error\":0.5,\"time_ratio\":1.5,%s}", counts);
-    return read_changed("\"cost\":null", cost, verdict);
-}
-
-TEST_WITH(0, a_cost_is_read_with_counts_or_without, start, NULL)
+TEST_WITH(0, a_cost_is_read_whole, start, NULL)
 {
     static Verdict verdict;
-    assert_true(read_with_cost("\"operations\":1000,\"operations_ratio\":0.75", &verdict));
+    assert_true(read_changed("\"cost\":null",
+                             "\"cost\":{\"error\":0.5,\"time_ratio\":1.5,\"operations\":1000,"
+                             "\"operations_ratio\":0.75}",
+                             &verdict));
     assert_true(verdict.cost.known && verdict.cost.operations == 1000);
     assert_true(verdict.cost.operations_ratio == 0.75);
-    assert_true(read_with_cost("\"operations\":null,\"operations_ratio\":null", &verdict));
-    assert_true(verdict.cost.known && verdict.cost.operations == -1);
-    assert_false(read_with_cost("\"operations\":1000", &verdict));
-    assert_false(read_with_cost("\"operations\":-1,\"operations_ratio\":1", &verdict));
+    assert_false(read_changed("\"cost\":null", "\"cost\":{\"error\":0.5}", &verdict));
 }
 
 TEST_WITH(0, invalid_verdicts_are_refused, start, NULL)
@@ -270,66 +252,25 @@ TEST_WITH(0, results_are_kept_and_merged, start, NULL)
     class_store_close(&store);
 }
 
-TEST_WITH(0, a_broken_result_is_passed_over, start, NULL)
-{
-    static ClassStore store;
-    Message notes = {.text = ""};
-    const ClassResult result = result_of("a", 1, true, 8);
-    assert_true(class_store_open(&store, "broken", NULL, &message));
-    assert_true(class_store_put(&store, &result, (ClassFiles){.picture = NULL}, NULL, &message));
-    class_store_close(&store);
-    assert_int_equal(truncate("broken/students/a/result.json", 100), 0);
-    assert_true(class_store_open(&store, "broken", &notes, &message));
-    assert_int_equal(store.count, 0);
-    assert_non_null(strstr(notes.text, "result.json"));
-    class_store_close(&store);
-}
-
 static ClassResult with_cost(const char *name, double error, double ratio)
 {
     ClassResult result = result_of(name, 1, true, 8);
     result.verdict.cost = (VerdictCost){.known = true,
                                         .error = error,
                                         .time_ratio = 1 - ratio,
-                                        .operations = (long)(1e6 * ratio),
+                                        .operations = 1e6 * ratio,
                                         .operations_ratio = ratio};
     return result;
 }
 
 TEST_WITH(0, the_front_has_unbeaten_results, start, NULL)
 {
-    ClassResult results[] = {with_cost("a", 1, 0.5),     with_cost("b", 0.5, 1),
-                             with_cost("c", 1, 1),       with_cost("d", 0.5, 1),
-                             result_of("e", 1, true, 8), with_cost("uncounted", 0.1, 0.1)};
-    static const bool efficient[] = {true, true, false, true, false, false};
-    const ClassStore store = {.results = results, .count = 6};
-    results[5].verdict.cost.operations = -1;
-    for (int i = 0; i < 6; i++)
+    ClassResult results[] = {with_cost("a", 1, 0.5), with_cost("b", 0.5, 1), with_cost("c", 1, 1),
+                             with_cost("d", 0.5, 1), result_of("e", 1, true, 8)};
+    static const bool efficient[] = {true, true, false, true, false};
+    const ClassStore store = {.results = results, .count = 5};
+    for (int i = 0; i < 5; i++)
         assert_int_equal(pareto_front_has(&store, &results[i]), efficient[i]);
-}
-
-static void assert_page(const char *path, const char *wanted)
-{
-    size_t size;
-    char *page = testing_read(path, &size);
-    assert_non_null(strstr(page, wanted));
-    free(page);
-}
-
-TEST_WITH(0, a_page_shows_only_known_counts, start, NULL)
-{
-    static ClassStore store;
-    const ClassResult counted = with_cost("counted", 0.5, 0.75);
-    ClassResult uncounted = with_cost("uncounted", 0.5, 0.75);
-    uncounted.verdict.cost.operations = -1;
-    uncounted.verdict.cost.operations_ratio = -1;
-    assert_true(class_store_open(&store, "pages", NULL, &message));
-    assert_true(class_store_put(&store, &counted, (ClassFiles){.picture = NULL}, NULL, &message));
-    assert_true(class_store_put(&store, &uncounted, (ClassFiles){.picture = NULL}, NULL, &message));
-    require(class_html_write(&store, false, &message), &message);
-    class_store_close(&store);
-    assert_page("pages/students/counted/index.html", "Operations: 750000, 0.750 of");
-    assert_page("pages/students/uncounted/index.html", "Operations: not counted. Time");
 }
 
 int main(void)

@@ -171,6 +171,10 @@ class Names(Class):
         shutil.make_archive(self.path("class/archive_in_folder/deep/mine"), "xztar", SOLUTION)
         self.submit("all_labs/lab05_mine")
         self.submit("all_labs/lab06_mine", os.path.join(SOLUTIONS, "lab06_phong"))
+        self.submit("topmost/deep/er", STARTER)
+        self.submit("topmost/deep")
+        self.submit("two/old")
+        self.submit("two/new")
         for junk in (
             *(".DS_Store", "__MACOSX/x", "grades.csv", "Thumbs.db"),
             *("mueller_anna/._lab05.frag", "mueller_anna/report.pdf"),
@@ -178,12 +182,13 @@ class Names(Class):
             self.make(f"class/{junk}", b"\0junk")
         lines = self.lab5()
         self.assert_one_line(lines, "grades", "refused", "not read: .csv")
+        self.assert_one_line(lines, "two", "refused", "(?=.*old).*new")
         students = (
             *("mueller_anna", "123456", "Zoë O'Brien", "canvas", "flat_fred"),
-            *("zip_zoe", "tar_tom", "archive_in_folder", "all_labs"),
+            *("zip_zoe", "tar_tom", "archive_in_folder", "all_labs", "topmost"),
         )
         self.assertEqual(
-            self.verdicts(), {**dict.fromkeys(students, "right"), "grades": "refused"}
+            self.verdicts(), {**dict.fromkeys(students, "right"), "grades": "refused", "two": "refused"}
         )
         self.assertEqual(self.table()["Zoë O'Brien"]["id"], "7788")
         attempts = {name: row["attempt"] for name, row in self.table().items()}
@@ -614,6 +619,13 @@ class Results(Class):
         self.lab5("--again")
         third = self.judged()
         self.assertTrue(all(third[name] > second[name] for name in second))
+
+    def test_a_broken_result_is_judged_again(self):
+        self.submit("a")
+        self.lab5()
+        os.truncate(self.path("out/students/a/result.json"), 100)
+        self.assertIn("a/result.json: not a valid result, judging again", "\n".join(self.lab5()))
+        self.assertEqual(self.verdicts(), {"a": "right"})
 
     def test_a_finished_result_stays_when_the_next_is_worse(self):
         """The same submission, with a long loop, has too little time in the second run."""

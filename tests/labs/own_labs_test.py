@@ -9,6 +9,7 @@ import json
 import os
 import re
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -86,6 +87,32 @@ class Extra(Case):
         wrong = result(lab, mine)
         self.assertEqual((wrong["verdict"], wrong["points"]), ("wrong", 1))
         self.assertIn("The outline is right: the mistake is in the light.", wrong["symptoms"])
+
+    # Of the solution: what becomes what, and the value that is wrong first; "": all is at once.
+    FIRST = [
+        ("fog", "u_FogDensity * length(", "length(", "depth", "line 22 of fog.frag"),
+        ("spot", "normalize(v_Normal)", "v_Normal", "nDotL", "line 21 of spot.frag"),
+        ("spot", "-lightDirection, u_SpotDirection", "lightDirection, u_SpotDirection", "cosine", "line 23 of spot.frag"),
+        ("spot", "u_Attenuation.y * d", "u_Attenuation.x * d", "attenuation", "line 25 of spot.frag"),
+        ("spot", "v_Color.rgb, v_Color.a", "v_Color.bgr, v_Color.a", "", ""),
+    ]
+
+    def test_the_first_wrong_value_is_told_and_drawn(self):
+        for name, old, new, value, place in self.FIRST:
+            lab = os.path.join(EXTRA, name)
+            self.write(read(lab, "solution", name + ".vert"), name, name + ".vert")
+            mine = self.write(read(lab, "solution", name + ".frag"), name, name + ".frag")
+            self.change(old, new, name, name + ".frag")
+            symptoms = result(lab, mine, "--pictures", self.path("found"))["symptoms"]
+            first = [text for text in symptoms if text.startswith(("Wrong first", "Below in the picture"))]
+            with open(self.path("found", "worst.png"), "rb") as file:
+                width, height = struct.unpack(">II", file.read(24)[16:])
+            self.assertEqual(len(first), 2 if value else 0, symptoms)
+            if value:
+                self.assertRegex(first[0], rf"worst: {value} is [-\d].*; right is [-\d].*\. See {place}")
+                self.assertRegex(first[1], rf"submitted and right: {value}: from .*, dark violet, to ")
+            # Square scenes; one is twice as wide.
+            self.assertIn(round((width - 16) / (height - (8 if value else 0)), 2), (1.5, 3) if value else (3, 6), first)
 
     # Of the solution: what becomes what.
     MISTAKES = {

@@ -67,61 +67,6 @@ TEST_WITH(0, a_name_is_added_once, start, NULL)
     assert_false(bundle_add(&bundle, "a/empty.h", "", 0, &message));
 }
 
-static void add(const char *name)
-{
-    assert_true(bundle_add(&bundle, name, "x", 1, &message));
-}
-
-TEST_WITH(0, the_topmost_folder_counts, start, NULL)
-{
-    add("deep/er/lab05.frag");
-    add("deep/lab05.frag");
-    add("deep/lab05.vert");
-    assert_true(source_choose(&bundle, &LABS[4], &message));
-    assert_int_equal(bundle.count, 3);
-    assert_non_null(bundle_find(&bundle, "lab05.frag"));
-    assert_non_null(bundle_find(&bundle, "er/lab05.frag"));
-}
-
-TEST_WITH(0, of_several_folders_the_labs_counts, start, NULL)
-{
-    add("all/lab04/lab04.frag");
-    add("all/lab05_mine/lab05.frag");
-    add("all/lab06/lab06.frag");
-    assert_true(source_choose(&bundle, &LABS[4], &message));
-    assert_int_equal(bundle.count, 1);
-    assert_string_equal(bundle.files[0].name, "lab05.frag");
-    bundle_close(&bundle);
-    add("old/lab05.frag");
-    add("new/lab05.frag");
-    assert_false(source_choose(&bundle, &LABS[4], &message));
-    assert_non_null(strstr(message.text, "old"));
-    assert_non_null(strstr(message.text, "new"));
-}
-
-TEST_WITH(0, the_hash_changes_with_names_and_bytes, start, NULL)
-{
-    uint64_t hashes[3];
-    add("lab05.frag");
-    hashes[0] = source_hash(&bundle);
-    add("lab05.vert");
-    hashes[1] = source_hash(&bundle);
-    bundle.files[1].bytes[0] = 'y';
-    hashes[2] = source_hash(&bundle);
-    assert_true(hashes[0] != hashes[1] && hashes[1] != hashes[2] && hashes[0] != hashes[2]);
-}
-
-TEST_WITH(0, only_sources_are_wanted, start, NULL)
-{
-    assert_true(source_is_wanted("a/LAB05.FRAG"));
-    assert_true(source_is_wanted("matrices.c"));
-    assert_false(source_is_wanted("report.pdf"));
-    assert_false(source_is_wanted("__MACOSX/lab05.frag"));
-    assert_false(source_is_wanted("a/._lab05.frag"));
-    assert_false(source_is_wanted(".git/x.c"));
-    assert_false(source_is_wanted("frag"));
-}
-
 /* A PNG of one pixel. */
 static const unsigned char PIXEL[] = {
     0x89, 0x50, 0x4E, 0x47, 0x0D, 0x0A, 0x1A, 0x0A, 0x00, 0x00, 0x00, 0x0D, 0x49, 0x48,

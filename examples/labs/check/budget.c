@@ -177,15 +177,14 @@ static void count_both(const Way *way, const Way *plain, const LabScene *lab_sce
 {
     VerdictCost *cost = &verdict->cost;
     Message message = {0};
-    cost->operations = count_submission(way, files, pixels, &message);
-    const long whole =
-        cost->operations < 0 ? -1 : count_plain(plain, &lab_scene->scene, pixels, &message);
-    cost->operations_ratio = whole > 0 ? (double)cost->operations / (double)whole : -1;
-    if (whole <= 0) {
-        cost->operations = -1;
+    const long own = count_submission(way, files, pixels, &message);
+    const long whole = own < 0 ? -1 : count_plain(plain, &lab_scene->scene, pixels, &message);
+    cost->known = whole > 0;
+    cost->operations = (double)own;
+    cost->operations_ratio = (double)own / (double)whole;
+    if (!cost->known)
         snprintf(verdict->details, sizeof verdict->details,
                  "No points for the cost, because it was not counted: %.1000s", message.text);
-    }
 }
 
 static void give_points(Verdict *verdict)
@@ -194,7 +193,7 @@ static void give_points(Verdict *verdict)
     if (verdict->kind != VERDICT_RIGHT)
         return;
     verdict->points = 5;
-    if (verdict->cost.operations >= 0)
+    if (verdict->cost.known)
         verdict->points += floor(2 * 5 * fmin(fmax((1 - ratio) / (1 - CHEAP), 0), 1)) / 2;
 }
 
@@ -219,7 +218,6 @@ bool budget_score(const LabBudget *budget, GLuint program, Canvas *canvas,
         count_both(&way, &plain, &lab_scene, files, pixels, verdict);
         for (int i = 0; i < verdict->probe_count; i++)
             cost->error = fmax(cost->error, verdict->probes[i].maximum);
-        cost->known = true;
         give_points(verdict);
     }
     mesh_buffer_close(&way.mesh);

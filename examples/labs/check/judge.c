@@ -12,6 +12,7 @@
 #include "labs/submission/submission.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 typedef struct Session {
@@ -27,6 +28,7 @@ typedef struct Session {
     bool settled;     /* the submission is at fault: there is a verdict */
     bool moved;       /* its outline is wrong */
     LabSolutions right;
+    FirstWrong first;
 } Session;
 
 /* Settles on a verdict: the first line is the message, the others are details. */
@@ -281,7 +283,7 @@ static bool explain_shaders(Session *session, Message *message)
     bool found;
     if (!look_at_budget(session, true, &found, message))
         return false;
-    if (!found && !diagnose(&session->pictures, session->files, verdict, message))
+    if (!found && !diagnose(&session->pictures, session->files, verdict, &session->first, message))
         return false;
     if (verdict->mistake_count == 0 && !look_at_budget(session, false, &found, message))
         return false;
@@ -398,7 +400,10 @@ static bool judge_pictures(Session *session, Message *message)
     if (worst < 0 || !session->options->pictures)
         return true;
     snprintf(verdict->picture, sizeof verdict->picture, "%s", JUDGE_WORST);
-    return judge_worst(&session->pictures, worst, session->options->pictures, message);
+    judge_value(&session->pictures, worst, session->files, &session->first, &session->canvas,
+                verdict);
+    return judge_worst(&session->pictures, worst, &session->first.value, session->options->pictures,
+                       message);
 }
 
 static bool judge_submission(Session *session, Message *message)
@@ -428,6 +433,8 @@ bool judge(const JudgeOptions *options, Verdict *verdict, Message *message)
     lab_solutions_close(&session.right);
     submission_files_close(&session.plain);
     canvas_close(&session.canvas);
+    free(session.first.right);
+    image_close(&session.first.value);
     verdict->seconds = clock_now() - start;
     return done;
 }

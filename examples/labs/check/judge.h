@@ -8,6 +8,7 @@
 #define JUDGE_H
 
 #include "core/canvas.h"
+#include "labs/diagnosis/diagnose.h"
 #include "labs/submission/lab_pictures.h"
 #include "labs/submission/submission.h"
 #include "labs/submission/verdict.h"
@@ -16,14 +17,22 @@
 
 /* The pictures that go with a verdict. */
 
-/* The submission's picture, the right one and their difference, enlarged, side by side. */
-bool judge_sheet(const LabPictures *pictures, int picture, Image *sheet, Message *message);
+/* The submission's picture, the right one and their difference, enlarged, side by side; below, a
+ * value of the submission and the right one (`pixels` NULL: none). */
+bool judge_sheet(const LabPictures *pictures, int picture, const Image *value, Image *sheet,
+                 Message *message);
+
+/* Draws the first wrong value of the submission and, below, the right one in that scene, in the
+ * same colours, which a symptom explains. Nothing, if it cannot be drawn. */
+void judge_value(const LabPictures *pictures, int picture, const SubmissionFiles *files,
+                 FirstWrong *first, Canvas *canvas, Verdict *verdict);
 
 /* The file that judge_worst writes. */
 #define JUDGE_WORST "worst.png"
 
 /* Writes that sheet as folder/worst.png (in a page: keeps it, see labs/web). */
-bool judge_worst(const LabPictures *pictures, int picture, const char *folder, Message *message);
+bool judge_worst(const LabPictures *pictures, int picture, const Image *value, const char *folder,
+                 Message *message);
 
 /* |a - b|, brightened, where `exact` has no edge. */
 bool judge_difference(const Image *a, const Image *b, const Reference *exact, Image *difference,

@@ -6,12 +6,13 @@
 
 #include <string.h>
 
-bool judge_worst(const LabPictures *pictures, int number, const char *folder, Message *message)
+bool judge_worst(const LabPictures *pictures, int number, const Image *value, const char *folder,
+                 Message *message)
 {
     Image sheet = {0};
     char path[PATH_MAX];
     const ImageOptions options = {.compress = IMAGE_COMPRESS_DEFAULT};
-    const bool done = judge_sheet(pictures, number, &sheet, message) &&
+    const bool done = judge_sheet(pictures, number, value, &sheet, message) &&
                       output_folder(folder, message) &&
                       output_path(path, folder, JUDGE_WORST, message) &&
                       image_write(&sheet, path, &options, message);

@@ -28,6 +28,7 @@ static bool try_mutant(void *context, const Mutation *mutation, const char *text
     SubmissionFiles files = *report->lab->solutions;
     Shader shader = {0};
     int count = 0;
+    double most = 0;
     /* All of them take minutes and mostly find what is as right. */
     if (!mutation->likely)
         return true;
@@ -45,16 +46,17 @@ static bool try_mutant(void *context, const Mutation *mutation, const char *text
     report->failed = !lab_pictures_draw(pictures, &painter, report->canvas, report->message);
     shader_close(&shader);
     for (int i = 0; i < pictures->count && !report->failed; i++) {
-        const bool seen = lab_pictures_error(pictures, i, pictures->truth).maximum >
-                          lab_pictures_tolerance(pictures, i);
+        const double error = lab_pictures_error(pictures, i, pictures->truth).maximum;
+        const bool seen = error > lab_pictures_tolerance(pictures, i);
+        most = error > most ? error : most;
         report->shown[i] += seen;
         count += seen;
     }
     report->drawn++;
     report->hidden += count == 0;
     if (count == 0 && !report->failed)
-        fprintf(report->file, "  %s: %s instead of %s\n", mutation->name,
-                mutation->by[0] ? mutation->by : "nothing", mutation->was);
+        fprintf(report->file, "  %s: %s instead of %s, at most %.2f steps\n", mutation->name,
+                mutation->by[0] ? mutation->by : "nothing", mutation->was, most);
     return !report->failed;
 }
 

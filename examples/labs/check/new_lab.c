@@ -149,32 +149,21 @@ static bool read_shader(Making *making, const char *path, GlslStage stage)
     return true;
 }
 
-static void put_vector(JsonWriter *json, const char *name, double x, double y, double z)
-{
-    char text[64];
-    snprintf(text, sizeof text, "[%g, %g, %g]", x, y, z);
-    json_write_value(json, name, text);
-}
-
 static void put_scene(JsonWriter *json, const Making *making, bool spot)
 {
+#define ONE "{\"place\": [2, 2.5, 2.5], \"color\": [0.6, 0.55, 0.5]}"
+    static const char *const lights[] = {
+        "[" ONE "]", "[" ONE ", {\"place\": [-3, 1, 2], \"color\": [0.2, 0.3, 0.45]}]"};
     json_write_object(json, "scene");
     json_write_text(json, "shape", "ball");
     json_write_number(json, "scale", 1);
-    put_vector(json, "eye", 0, 0, 6);
-    json_write_list(json, "lights");
-    for (int i = 0; i < making->lights; i++) {
-        json_write_object(json, NULL);
-        put_vector(json, "place", i ? -3 : 2, i ? 1 : 2.5, i ? 2 : 2.5);
-        put_vector(json, "color", i ? 0.2 : 0.6, i ? 0.3 : 0.55, i ? 0.45 : 0.5);
-        json_write_end(json);
-    }
-    json_write_end(json);
+    json_write_value(json, "eye", "[0, 0, 6]");
+    json_write_value(json, "lights", lights[making->lights - 1]);
     if (spot)
         json_write_value(
             json, "spot",
             "{\"at\": [0.1, 0.2, 0.3], \"cutoff\": 14, \"exponent\": 10, \"attenuation\": [0.7, 0.05, 0.02]}");
-    put_vector(json, "color", 1, 0.5, 0.2);
+    json_write_value(json, "color", "[1, 0.5, 0.2]");
     if (find(making, "u_Shininess") || find(making, "u_SpecularColor"))
         json_write_number(json, "shininess", 20);
     json_write_end(json);
@@ -287,9 +276,10 @@ static int before_functions(const Making *making, GlslStage stage)
             (!first || symbol->place.line < first))
             first = symbol->place.line;
     }
-    for (int line = 1; line < first; line++)
-        at = strchr(at, '\n') + 1;
-    return (int)(at - making->texts[stage]);
+    const char *end = at; /* of the last line of code: comments before a function go with it */
+    for (int line = 1; line < first; line++, at = strchr(at, '\n') + 1)
+        end = strncmp(at, "//", 2) == 0 || *at == '\n' ? end : strchr(at, '\n') + 1;
+    return (int)(end - making->texts[stage]);
 }
 
 /* gl_Position as simply as the names allow. */
@@ -324,7 +314,7 @@ static bool put_starter(const Making *making, GlslStage stage, bool cut)
     if (!cut) {
         fputs(text, out.file);
     } else {
-        fprintf(out.file, "%.*svoid main() {\n    // To do.\n", before_functions(making, stage),
+        fprintf(out.file, "%.*s\nvoid main() {\n    // To do.\n", before_functions(making, stage),
                 text);
         if (stage == GLSL_VERTEX)
             put_position(making, out.file);

@@ -37,11 +37,8 @@ static void set_cost(TemplateValues *page, const VerdictCost *cost)
     TemplateValues *values = template_add(page, "cost");
     template_set(values, "error", "%.2f", cost->error);
     template_set(values, "time", "%.2f", cost->time_ratio);
-    if (cost->operations < 0)
-        return;
-    TemplateValues *counted = template_add(values, "counted");
-    template_set(counted, "operations", "%ld", cost->operations);
-    template_set(counted, "ratio", "%.3f", cost->operations_ratio);
+    template_set(values, "operations", "%.0f", cost->operations);
+    template_set(values, "ratio", "%.3f", cost->operations_ratio);
 }
 
 static void set_mistakes(TemplateValues *page, const Verdict *verdict)

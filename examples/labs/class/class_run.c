@@ -38,26 +38,22 @@ bool class_run_write(const ClassOptions *options, const Lab *lab, const FoundLis
     return done;
 }
 
+static int whole_number(const json_t *run, const char *key)
+{
+    return (int)json_integer_value(json_object_get(run, key));
+}
+
 static bool is_whole(json_t *run)
 {
-    const char *lab, *version;
-    int part, parts, limit, deterministic;
-    json_int_t seed;
-    json_t *students;
-    size_t i;
-    json_t *name;
-    if (json_unpack(run, "{s:s, s:s, s:i, s:i, s:I, s:i, s:b, s:o}", "lab", &lab, "version",
-                    &version, "part", &part, "parts", &parts, "seed", &seed, "limit", &limit,
-                    "deterministic", &deterministic, "students", &students) != 0 ||
-        !json_is_array(students) || parts < 0 || parts > PARTS_MAX || part < (parts > 0) ||
-        part > parts)
-        return false;
-    json_array_foreach(students, i, name)
-    {
-        if (!json_is_string(name))
-            return false;
-    }
-    return true;
+    const json_t *students = json_object_get(run, "students");
+    bool whole =
+        json_unpack_ex(run, NULL, JSON_VALIDATE_ONLY, "{s:s, s:s, s:i, s:i, s:I, s:i, s:b, s:o}",
+                       "lab", "version", "part", "parts", "seed", "limit", "deterministic",
+                       "students") == 0 &&
+        whole_number(run, "parts") <= PARTS_MAX;
+    for (size_t i = 0; i < json_array_size(students); i++)
+        whole &= json_is_string(json_array_get(students, i));
+    return whole;
 }
 
 static json_t *read_run(const char *folder, Message *message)
@@ -77,11 +73,6 @@ static json_t *read_run(const char *folder, Message *message)
         return NULL;
     }
     return run;
-}
-
-static int whole_number(const json_t *run, const char *key)
-{
-    return (int)json_integer_value(json_object_get(run, key));
 }
 
 /* The same class, judged in the same way. */

@@ -73,7 +73,7 @@ static void put_row(FILE *file, const ClassResult *result, bool parts)
     fputc(',', file);
     class_table_csv_field(file, verdict->message);
     if (verdict->cost.known)
-        fprintf(file, ",%g,%g,%ld", verdict->cost.error, verdict->cost.time_ratio,
+        fprintf(file, ",%g,%g,%.0f", verdict->cost.error, verdict->cost.time_ratio,
                 verdict->cost.operations);
     else
         fputs(",,,", file);

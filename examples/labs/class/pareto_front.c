@@ -7,20 +7,14 @@
 
 #include <stdlib.h>
 
-static bool counted(const ClassResult *result)
-{
-    return result->verdict.cost.known && result->verdict.cost.operations >= 0;
-}
-
 bool pareto_front_has(const ClassStore *store, const ClassResult *result)
 {
     const VerdictCost *cost = &result->verdict.cost;
-    if (!counted(result))
+    if (!cost->known)
         return false;
     for (int i = 0; i < store->count; i++) {
         const VerdictCost *other = &store->results[i].verdict.cost;
-        if (counted(&store->results[i]) && other->error <= cost->error &&
-            other->operations <= cost->operations &&
+        if (other->known && other->error <= cost->error && other->operations <= cost->operations &&
             (other->error < cost->error || other->operations < cost->operations))
             return false;
     }
@@ -41,7 +35,8 @@ static void set_points(TemplateValues *plot, const ClassStore *store, bool effic
     TemplateValues *points = NULL;
     const VerdictCost **costs = memory_new((size_t)store->count, sizeof *costs);
     for (int i = 0; i < store->count; i++)
-        if (counted(&store->results[i]) && pareto_front_has(store, &store->results[i]) == efficient)
+        if (store->results[i].verdict.cost.known &&
+            pareto_front_has(store, &store->results[i]) == efficient)
             costs[count++] = &store->results[i].verdict.cost;
     qsort(costs, (size_t)count, sizeof *costs, by_operations);
     for (int i = 0; i < count; i++) {
@@ -59,7 +54,7 @@ bool pareto_front_draw(const ClassStore *store, bool *drawn, Message *message)
 {
     *drawn = false;
     for (int i = 0; i < store->count && !*drawn; i++)
-        *drawn = counted(&store->results[i]);
+        *drawn = store->results[i].verdict.cost.known;
     if (!*drawn)
         return true;
     TemplateValues *plot = template_values();

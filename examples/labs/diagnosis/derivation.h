@@ -5,6 +5,7 @@
 #define DERIVATION_H
 
 #include "core/shader_source.h"
+#include "labs/diagnosis/diagnose.h"
 #include "labs/diagnosis/mutation.h"
 #include "labs/diagnosis/points.h"
 #include "labs/submission/verdict.h"
@@ -166,6 +167,10 @@ typedef struct Term {
 enum { MAX_TERMS = 7 };
 int wrong_part_list(const Lab *lab, Term terms[MAX_TERMS]);
 PartState wrong_part_judge(Derivation *all, const Term *term);
+
+/* Of a submission that is mended: fills in the value that is wrong first, unless it is the result,
+ * and says it. */
+void first_wrong_find(Derivation *all, Verdict *verdict, FirstWrong *first);
 
 /* Says which terms are right or wrong and, if one value alone explains all, which. */
 void wrong_part_describe(Derivation *all, Verdict *verdict);

@@ -32,10 +32,19 @@ void matrices_name(const LabPictures *pictures, Verdict *verdict);
 /* Adds the symptoms to the verdict. `moved`: the outline is wrong. */
 void symptoms_describe(const LabPictures *pictures, bool moved, Verdict *verdict);
 
+/* The first wrong value of a submission that one change makes right: its name, and the stage's
+ * shader with the change, for free(). NULL: none is known. */
+typedef struct FirstWrong {
+    char name[64];
+    int stage;
+    char *right;
+    Image value; /* see judge_value */
+} FirstWrong;
+
 /* Fills in the message and mistakes of a wrong submission that has shaders, and of one without a
  * name the part that is wrong. False, with a message: the driver failed. */
 bool diagnose(const LabPictures *pictures, const SubmissionFiles *files, Verdict *verdict,
-              Message *message);
+              FirstWrong *first, Message *message);
 
 /* Says of a wrong submission which of its parts (verdict.h) are right. False, with a message: the
  * driver failed. */

@@ -253,7 +253,14 @@ static bool is_name(const GlslNode *node)
     return node->kind == GLSL_NAME || node->kind == GLSL_INDEX || node->kind == GLSL_SWIZZLE;
 }
 
-static bool matches(const GlslNode *node, const Rule *rule)
+/* Products of numbers and vectors are the same in either order. */
+static bool has_matrix(const GlslTree *tree, const GlslNode *node)
+{
+    return glsl_is_matrix(tree->nodes[node->first].type) ||
+           glsl_is_matrix(tree->nodes[tree->nodes[node->first].next].type);
+}
+
+static bool matches(const GlslTree *tree, const GlslNode *node, const Rule *rule)
 {
     const bool literal = node->kind == GLSL_LITERAL || node->kind == GLSL_ASSIGN;
     switch (rule->kind) {
@@ -270,7 +277,7 @@ static bool matches(const GlslNode *node, const Rule *rule)
     default:
         break;
     }
-    if (node->kind != rule->kind)
+    if (node->kind != rule->kind || (strcmp(rule->by, "$2 * $1") == 0 && !has_matrix(tree, node)))
         return false;
     return rule->kind == GLSL_BUILT_IN ? rule->op < 0 || GLSL_FUNCTIONS[node->symbol].id == rule->op
            : rule->kind == GLSL_LITERAL || rule->kind == GLSL_CONSTRUCT ? node->type == rule->op
@@ -286,7 +293,7 @@ static void mutate(Maker *maker, int node, int mark)
     if (cut(maker, mark)) {
         read_operands(maker);
         for (int i = 0; i < RULE_COUNT && !maker->ended; i++)
-            if (matches(&maker->tree->nodes[node], &RULES[i]))
+            if (matches(maker->tree, &maker->tree->nodes[node], &RULES[i]))
                 apply(maker, i);
     }
     free(maker->before);

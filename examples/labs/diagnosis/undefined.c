@@ -198,13 +198,15 @@ static bool explain(Derivation *all, Verdict *verdict)
 }
 
 bool diagnose(const LabPictures *pictures, const SubmissionFiles *files, Verdict *verdict,
-              Message *message)
+              FirstWrong *first, Message *message)
 {
     Derivation *all = derivation_open(pictures, files, message);
     if (!all && message->text[0])
         return false;
     if (all && !explain(all, verdict))
         wrong_part_describe(all, verdict);
+    if (all && all->mended && first)
+        first_wrong_find(all, verdict, first);
     derivation_close(all);
     if (!verdict->message[0])
         snprintf(verdict->message, sizeof verdict->message, "Unknown mistake");

@@ -154,8 +154,8 @@ void verdict_print(const Verdict *verdict, const Lab *lab, const char *pictures,
     if (verdict->cost.known)
         fprintf(file, "cost: error %.2f steps, %.2f of the time of the chapter's own program\n",
                 verdict->cost.error, verdict->cost.time_ratio);
-    if (verdict->cost.known && verdict->cost.operations >= 0)
-        fprintf(file, "operations per picture: %ld, %.3f of those of the chapter's own program\n",
+    if (verdict->cost.known)
+        fprintf(file, "operations per picture: %.0f, %.3f of those of the chapter's own program\n",
                 verdict->cost.operations, verdict->cost.operations_ratio);
     if (verdict->picture[0] && pictures)
         fprintf(file, "%s/%s: submission, right, difference\n", pictures, verdict->picture);

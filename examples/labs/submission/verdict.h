@@ -62,11 +62,11 @@ typedef struct VerdictPart {
 
 /* The cost of lab 10's picture. */
 typedef struct VerdictCost {
-    bool known;
+    bool known;              /* and counted */
     double error;            /* the largest of all scenes */
     double time_ratio;       /* to the chapter's own program in `accuracy`'s usual setting */
-    long operations;         /* of all vertices and fragments; -1: not counted */
-    double operations_ratio; /* to that program's; -1: not counted */
+    double operations;       /* of all vertices and fragments */
+    double operations_ratio; /* to that program's */
 } VerdictCost;
 
 typedef struct Verdict {

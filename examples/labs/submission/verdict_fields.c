@@ -69,6 +69,8 @@ const Field VERDICT_FIELDS[] = {
 const Field VERDICT_COST_FIELDS[] = {
     NUMBER(VerdictCost, error, 0, 1e9),
     NUMBER(VerdictCost, time_ratio, 0, 1e9),
+    NUMBER(VerdictCost, operations, 0, 1e15),
+    NUMBER(VerdictCost, operations_ratio, 0, 1e9),
     FIELD_END,
 };
 
@@ -119,15 +121,12 @@ static void put_fields(JsonWriter *json, const Field *fields, const void *record
 
 static void put_cost(JsonWriter *json, const VerdictCost *cost)
 {
-    const bool counted = cost->operations >= 0;
     if (!cost->known) {
         json_write_text(json, "cost", NULL);
         return;
     }
     json_write_object(json, "cost");
     put_fields(json, VERDICT_COST_FIELDS, cost);
-    json_write_number(json, "operations", counted ? (double)cost->operations : NAN);
-    json_write_number(json, "operations_ratio", counted ? cost->operations_ratio : NAN);
     json_write_end(json);
 }
 

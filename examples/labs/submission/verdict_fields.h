@@ -39,7 +39,7 @@ extern const Field VERDICT_FIELDS[];
         .kind = (FieldKind)-1                                                                      \
     }
 
-/* Of VerdictCost: those that are always known. */
+/* Of VerdictCost. */
 extern const Field VERDICT_COST_FIELDS[];
 
 /* Writes a verdict's members, without the braces. Bytes that are not UTF-8 become the replacement

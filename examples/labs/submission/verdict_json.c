@@ -132,21 +132,6 @@ static bool read_fields(const json_t *object, const Field *fields, char *record,
     return true;
 }
 
-/* Operations are null if no tool counted them. */
-static bool read_operations(const json_t *from, VerdictCost *cost, Message *message)
-{
-    double operations;
-    cost->operations = -1;
-    cost->operations_ratio = -1;
-    if (json_is_null(json_object_get(from, "operations")))
-        return true;
-    if (!verdict_number(from, "operations", 0, 1e15, &operations, message) ||
-        !verdict_number(from, "operations_ratio", 0, 1e9, &cost->operations_ratio, message))
-        return false;
-    cost->operations = (long)operations;
-    return true;
-}
-
 static bool read_cost(const json_t *object, VerdictCost *cost, Message *message)
 {
     const json_t *from = json_object_get(object, "cost");
@@ -154,8 +139,7 @@ static bool read_cost(const json_t *object, VerdictCost *cost, Message *message)
         return true;
     if (!json_is_object(from))
         return message_set(message, "\"cost\": must be an object or null");
-    cost->known = read_fields(from, VERDICT_COST_FIELDS, (char *)cost, message) &&
-                  read_operations(from, cost, message);
+    cost->known = read_fields(from, VERDICT_COST_FIELDS, (char *)cost, message);
     return cost->known;
 }
 

@@ -45,11 +45,12 @@ static struct {
 static const ReferenceOptions EXACT = {
     .width = SIZE, .height = SIZE, .meshes = true, .centers = true, .threads = 1};
 
-bool judge_worst(const LabPictures *pictures, int picture, const char *folder, Message *message)
+bool judge_worst(const LabPictures *pictures, int picture, const Image *value, const char *folder,
+                 Message *message)
 {
     (void)folder;
     image_close(&page.worst);
-    return judge_sheet(pictures, picture, &page.worst, message);
+    return judge_sheet(pictures, picture, value, &page.worst, message);
 }
 
 /* Replaces the text that was returned last by what is written. */
