@@ -171,8 +171,8 @@ class Names(Class):
         shutil.make_archive(self.path("class/archive_in_folder/deep/mine"), "xztar", SOLUTION)
         self.submit("all_labs/lab05_mine")
         self.submit("all_labs/lab06_mine", os.path.join(SOLUTIONS, "lab06_phong"))
-        self.submit("topmost/deep/er", STARTER)
         self.submit("topmost/deep")
+        self.submit("topmost/deep/er", STARTER)
         self.submit("two/old")
         self.submit("two/new")
         for junk in (

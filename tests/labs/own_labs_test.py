@@ -407,6 +407,8 @@ class Folder(Case):
         said = check("--lab", lab, "--report").stdout
         self.assertIn(same, said)
         self.assertNotIn(missed, said)
+        self.assertIn("at the vertices: depth, at most 1.", said)
+        self.assertNotIn("in the wrong order", said)  # of numbers and colours that is as right
         tried, shown, hidden = map(int, re.search(r"(\d+) mistakes tried; shown: (\d+), not shown: (\d+)", said).groups())
         self.assertEqual((tried, said.count(" instead of ")), (shown + hidden, hidden))
         self.assertGreater(shown, 40)

@@ -5,8 +5,10 @@
 #include "labs/check/judge.h"
 
 #include "base/memory.h"
+#include "labs/diagnosis/diagnose.h"
 #include "labs/diagnosis/mutation.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,8 +18,7 @@ typedef struct Report {
     Canvas *canvas;
     FILE *file;
     const char *name; /* of the stage's file */
-    int drawn, hidden, refused;
-    int shown[LAB_PICTURES_MAX]; /* by each scene, how many */
+    int drawn, hidden;
     bool failed;
     Message *message;
 } Report;
@@ -27,7 +28,7 @@ static bool try_mutant(void *context, const Mutation *mutation, const char *text
     Report *report = context;
     SubmissionFiles files = *report->lab->solutions;
     Shader shader = {0};
-    int count = 0;
+    bool shown = false;
     double most = 0;
     /* All of them take minutes and mostly find what is as right. */
     if (!mutation->likely)
@@ -37,7 +38,6 @@ static bool try_mutant(void *context, const Mutation *mutation, const char *text
             files.texts[i].text = text;
     if (!submission_compile(&shader, report->lab, &files, "highp", NULL) ||
         !binding_check(report->lab, &shader, NULL)) {
-        report->refused++;
         shader_close(&shader);
         return true;
     }
@@ -47,14 +47,12 @@ static bool try_mutant(void *context, const Mutation *mutation, const char *text
     shader_close(&shader);
     for (int i = 0; i < pictures->count && !report->failed; i++) {
         const double error = lab_pictures_error(pictures, i, pictures->truth).maximum;
-        const bool seen = error > lab_pictures_tolerance(pictures, i);
-        most = error > most ? error : most;
-        report->shown[i] += seen;
-        count += seen;
+        shown |= error > lab_pictures_tolerance(pictures, i);
+        most = fmax(most, error);
     }
     report->drawn++;
-    report->hidden += count == 0;
-    if (count == 0 && !report->failed)
+    report->hidden += !shown;
+    if (!shown && !report->failed)
         fprintf(report->file, "  %s: %s instead of %s, at most %.2f steps\n", mutation->name,
                 mutation->by[0] ? mutation->by : "nothing", mutation->was, most);
     return !report->failed;
@@ -92,12 +90,10 @@ bool lab_report(const Lab *lab, FILE *file, Message *message)
         fprintf(file, "Likely mistakes in the solution that no scene shows; some are as right:\n");
     done = done && try_stage(&report, GLSL_VERTEX) && try_stage(&report, GLSL_FRAGMENT);
     if (done)
+        at_vertices_report(pictures, file, message);
+    if (done)
         fprintf(file, "%d mistakes tried; shown: %d, not shown: %d\n", report.drawn,
                 report.drawn - report.hidden, report.hidden);
-    for (int i = 0; i < pictures->count && done; i++)
-        fprintf(file, "  scene %s (%s): shows %d\n",
-                LAB_SCENE_NAMES[pictures->items[i].lab_scene.kind],
-                pictures->items[i].lab_scene.known ? "known" : "seed 1", report.shown[i]);
     lab_solutions_close(&right);
     lab_pictures_close(pictures);
     free(pictures);

@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -41,12 +42,13 @@ static void interpolate(GlslRun *run, const GlslEvent *event, void *observer)
     blend->turn++;
 }
 
-/* Whether the submission draws what the right program does with this value interpolated. */
-static bool draws_same(Derivation *all, Values corners[POINT_CORNERS], int node)
+/* How far the submission is from the right program with this value interpolated; more than
+ * `enough`: no further points are looked at. */
+static double apart_with(Derivation *all, Values corners[POINT_CORNERS], int node, double enough)
 {
     GlslRun *run = all->right[1].run;
-    bool same = true;
-    for (int i = 0; i < all->points.count && same; i++) {
+    double apart = 0;
+    for (int i = 0; i < all->points.count && apart <= enough; i++) {
         const int point = all->order[i];
         double numbers[POINT_NUMBERS];
         for (int c = 0; c < POINT_CORNERS; c++) {
@@ -59,9 +61,9 @@ static bool draws_same(Derivation *all, Values corners[POINT_CORNERS], int node)
         run->observer = &blend;
         points_run(&all->points, &all->right[0], &all->right[1], point, numbers);
         run->assigned = NULL;
-        same = points_apart(numbers, all->wanted[point]) <= DERIVATION_EQUAL;
+        apart = fmax(apart, points_apart(numbers, all->wanted[point]));
     }
-    return same;
+    return apart;
 }
 
 bool at_vertices_explain(Derivation *all, Verdict *verdict)
@@ -74,7 +76,8 @@ bool at_vertices_explain(Derivation *all, Verdict *verdict)
         const char *what =
             all->right[values->items[i].stage].tree->symbols[values->items[i].symbol].name;
         found = values->items[i].stage == GLSL_FRAGMENT &&
-                draws_same(all, values + 1, values->items[i].node);
+                apart_with(all, values + 1, values->items[i].node, DERIVATION_EQUAL) <=
+                    DERIVATION_EQUAL;
         if (!found)
             continue;
         const bool light = strcmp(what, "gl_FragColor") == 0;
@@ -88,4 +91,23 @@ bool at_vertices_explain(Derivation *all, Verdict *verdict)
     }
     free(values);
     return found;
+}
+
+void at_vertices_report(const LabPictures *pictures, FILE *file, Message *message)
+{
+    const double steps = lab_pictures_tolerance(pictures, 0);
+    Values *values = memory_new(1 + POINT_CORNERS, sizeof *values);
+    Derivation *all = derivation_open(pictures, pictures->lab->solutions, message);
+    if (all && derive_use_right(all, "", LIT_AT_VERTICES))
+        values_trace(&all->points, &all->right[0], &all->right[1], all->order[0], values);
+    for (int i = 0; i < values->count; i++) {
+        if (values->items[i].stage != GLSL_FRAGMENT)
+            continue;
+        const double apart = 255 * apart_with(all, values + 1, values->items[i].node, steps / 255);
+        if (apart > 255 * DERIVATION_EQUAL && apart <= steps)
+            fprintf(file, "  at the vertices: %s, at most %.2f steps\n",
+                    all->right[1].tree->symbols[values->items[i].symbol].name, apart);
+    }
+    derivation_close(all);
+    free(values);
 }

@@ -46,6 +46,10 @@ typedef struct FirstWrong {
 bool diagnose(const LabPictures *pictures, const SubmissionFiles *files, Verdict *verdict,
               FirstWrong *first, Message *message);
 
+/* Lists the values of a lab's solution that no scene tells from ones that are computed at the
+ * vertices and interpolated. */
+void at_vertices_report(const LabPictures *pictures, FILE *file, Message *message);
+
 /* Says of a wrong submission which of its parts (verdict.h) are right. False, with a message: the
  * driver failed. */
 bool parts_judge(const LabPictures *pictures, const SubmissionFiles *files, Verdict *verdict,
