@@ -82,9 +82,14 @@ static bool read_orbit(const Parameter *parameter, const char *text, Message *me
     return true;
 }
 
+/* "30,-10,0.5": with the distance and the roll where those are not 1 and 0. */
 static bool write_orbit(const Parameter *parameter, char *text, size_t size)
 {
-    return size >= ORBIT_TEXT && orbit_text(*(const Orbit *)parameter->value, text);
+    const Orbit orbit = *(const Orbit *)parameter->value;
+    const double numbers[] = {orbit.azimuth, orbit.elevation, orbit_distance(orbit), orbit.roll};
+    const int count = orbit.roll != 0 ? 4 : numbers[2] != 1 ? 3 : 2;
+    text[0] = '\0';
+    return orbit_moves(orbit) && option_put_numbers(text, size, numbers, count);
 }
 
 const ParameterCodec OPTION_ORBIT = {"AZIMUTH,ELEVATION[,DISTANCE[,ROLL]]", read_orbit,

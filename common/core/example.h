@@ -45,6 +45,10 @@ typedef struct Example {
 enum { DEGREES_PER_SECOND = 30 };
 
 /* mat4_look_at from where the frame's orbit has moved the eye. */
-Mat4 frame_look_at(const Frame *frame, Vec3 eye, Vec3 center, Vec3 up);
+static inline Mat4 frame_look_at(const Frame *frame, Vec3 eye, Vec3 center, Vec3 up)
+{
+    orbit_move(frame->orbit, &eye, center, &up);
+    return mat4_look_at(eye, center, up);
+}
 
 #endif

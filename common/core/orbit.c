@@ -1,16 +1,12 @@
 /* Three angles and a distance, applied to the camera of the scene. */
 #include "core/orbit.h"
 
-#include "base/parse.h"
-
-#include <stdio.h>
-
 double orbit_distance(Orbit orbit)
 {
     return orbit.distance > 0 ? orbit.distance : 1;
 }
 
-static bool moves(Orbit orbit)
+bool orbit_moves(Orbit orbit)
 {
     return orbit.azimuth != 0 || orbit.elevation != 0 || orbit_distance(orbit) != 1 ||
            orbit.roll != 0;
@@ -23,7 +19,7 @@ static Vec3 turn(Vec3 vector, double degrees, Vec3 axis)
 
 void orbit_move(Orbit orbit, Vec3 *eye, Vec3 center, Vec3 *up)
 {
-    if (!moves(orbit))
+    if (!orbit_moves(orbit))
         return;
     Vec3 back = vec3_scale(vec3_subtract(*eye, center), orbit_distance(orbit)), right;
     if (vec3_normalize(vec3_cross(*up, back), &right)) {
@@ -36,20 +32,4 @@ void orbit_move(Orbit orbit, Vec3 *eye, Vec3 center, Vec3 *up)
         *up = turn(turn(*up, orbit.azimuth, axis), -orbit.roll, back);
     }
     *eye = vec3_add(center, back);
-}
-
-bool orbit_text(Orbit orbit, char text[ORBIT_TEXT])
-{
-    const double numbers[] = {orbit.azimuth, orbit.elevation, orbit_distance(orbit), orbit.roll};
-    const int count = orbit.roll != 0 ? 4 : numbers[2] != 1 ? 3 : 2;
-    text[0] = '\0';
-    if (!moves(orbit))
-        return false;
-    for (int i = 0, length = 0; i < count; i++) {
-        char number[32];
-        parse_number_text(numbers[i], number);
-        length +=
-            snprintf(text + length, ORBIT_TEXT - (size_t)length, "%s%s", i ? "," : "", number);
-    }
-    return true;
 }

@@ -21,9 +21,6 @@ double orbit_distance(Orbit orbit);
  * `up`, only the distance changes, because right and up are undefined. */
 void orbit_move(Orbit orbit, Vec3 *eye, Vec3 center, Vec3 *up);
 
-/* "AZIMUTH,ELEVATION", with ",DISTANCE" or ",DISTANCE,ROLL" where those are not 1 and 0:
- * "30,-10,0.5". False, and an empty text, if it moves nothing. */
-enum { ORBIT_TEXT = 128 };
-bool orbit_text(Orbit orbit, char text[ORBIT_TEXT]);
+bool orbit_moves(Orbit orbit);
 
 #endif

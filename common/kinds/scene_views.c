@@ -55,7 +55,6 @@ static double designed_aspect(const Renderer *renderer)
 static bool make_plain(const ViewMoment *moment, Scene *scene, Message *message)
 {
     const DrawRequest *request = moment->request;
-    char orbit[ORBIT_TEXT];
     example_scene(moment->renderer->example)->make(moment->seconds, moment->view, scene);
     orbit_move(request->orbit, &scene->camera.eye, scene->camera.center, &scene->camera.up);
     scene->clamp_vertex |= request->clamp_vertex;
@@ -65,7 +64,7 @@ static bool make_plain(const ViewMoment *moment, Scene *scene, Message *message)
     scene->camera.aspect = designed_aspect(moment->renderer);
     if (!scene_check(scene, message))
         return false;
-    if (orbit_text(request->orbit, orbit))
+    if (orbit_moves(request->orbit))
         scene_fit_depth(scene);
     return true;
 }

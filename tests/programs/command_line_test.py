@@ -474,11 +474,34 @@ class Options(Case):
                                                           if there else "missing, gives"))
         os.remove(self.path("build/common/app.so"))
         self.refused(1, "app: its module, common/app.so, is not built yet: .*examples/run", "--help", program=program)
-        self.good(*SMALL, "-o", "a.png", program=program)
-        shutil.copy(os.path.join(EXAMPLES, "../common/app.so"), self.path("build/common"))
+        self.good(program=program)  # the picture needs none
+        with open(os.path.join(EXAMPLES, "../common/app.so"), "rb") as file:
+            module = file.read()
+        with open(os.path.join(EXAMPLES, "../common/base/build_id.h"), "rb") as file:
+            build = file.read().split(b'"')[1]
+        self.make("build/common/app.so", module.replace(build, build[::-1]))
+        self.refused(1, "app: its module, common/app.so, is of another build than the program: .*examples/run", *SMALL,
+                     program=program)
+        self.make("build/common/app.so", module)
         if os.path.exists(MODULE):
             self.refused(1, "OpenImageIO: its module, common/image_oiio.so, is not built yet: .*examples/run",
                          *SMALL, "-o", "a.exr", program=program)
+
+    def test_the_first_picture_is_the_plugins(self):
+        """What a program of the lecture draws by itself has the same bytes as with any option; what goes wrong, or is
+        to be warned of, the plugin says."""
+        with open(os.path.join(SOURCE, "shaders/lecture/LightedCube.vert"), encoding="ascii") as file:
+            text = file.read()
+        for name in "LightedCube", "PointLightedSphere_perFragment":
+            self.good(program=name)
+            alone = self.read(name + ".png")
+            self.good("-o", "a.png", program=name)
+            self.assertEqual(self.read("a.png"), alone)
+        self.make("shaders/LightedCube.vert", text.replace("vec4", "vec5", 1).encode())
+        for arguments, environment in ((), {"LIGHTING_SHADERS": "shaders"}), (("--shaders", "shaders"), {}):
+            self.says(1, "hint: vec5 is no type", *arguments, environment=environment)
+        for arguments in (), ("-t", "0"):
+            self.says(1, "^LightedCube: EGL: no platform gives .*: unset it", *arguments, environment=NO_DRIVER)
 
     def test_verbose_reports_programs_once(self):
         result = self.says(0, "opening", "-v", "-n", "4", "-s", "40", "-o", "p%d.png", program="LightTypes")
