@@ -296,23 +296,18 @@ static void print_difference(const ExplainedObject *object, const ExplainedObjec
     printf("\n");
 }
 
-/* An object's effects with lines folded. */
-static char *folded_text(const LightingPlan *plan, int object)
-{
-    OutputText text;
-    char *whole = effects_text(plan, object);
-    output_text_open(&text);
-    fold_lines(whole, text.file);
-    free(whole);
-    return output_text_close(&text);
-}
-
 /* `object` is without its text. */
 static void explain_object(const Renderer *renderer, const LightingPlan *plan,
                            ExplainedObject object, Explained *explained)
 {
     int apart = 0;
-    object.text = folded_text(plan, object.object);
+    /* An object's effects with lines folded. */
+    OutputText text;
+    char *whole = effects_text(plan, object.object);
+    output_text_open(&text);
+    fold_lines(whole, text.file);
+    free(whole);
+    object.text = output_text_close(&text);
     const int nearest = find_nearest(explained, object.text, &apart);
     if (nearest >= 0 && apart == 0) {
         add_same(explained, nearest, object.view, object.object);

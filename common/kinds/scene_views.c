@@ -41,16 +41,6 @@ bool scene_view_place(const Renderer *renderer, int view, int place[4])
     return place[2] > 0 && place[3] > 0;
 }
 
-/* Of a view in the picture that the program makes without --size. */
-static double designed_aspect(const Renderer *renderer)
-{
-    const Usage usage = options_usage(renderer->example);
-    int width, height, columns, rows;
-    options_size(&usage, &width, &height);
-    view_grid(renderer, &columns, &rows);
-    return (double)width * rows / ((double)height * columns);
-}
-
 /* As the example makes it, seen as the request wants it. */
 static bool make_plain(const ViewMoment *moment, Scene *scene, Message *message)
 {
@@ -61,7 +51,12 @@ static bool make_plain(const ViewMoment *moment, Scene *scene, Message *message)
     scene->signed_dots |= request->signed_dots;
     scene->linear |= request->linear;
     scene->show_clipped |= request->show_clipped;
-    scene->camera.aspect = designed_aspect(moment->renderer);
+    /* Of a view in the picture that the program makes without --size. */
+    const Usage usage = options_usage(moment->renderer->example);
+    int width, height, columns, rows;
+    options_size(&usage, &width, &height);
+    view_grid(moment->renderer, &columns, &rows);
+    scene->camera.aspect = (double)width * rows / ((double)height * columns);
     if (!scene_check(scene, message))
         return false;
     if (orbit_moves(request->orbit))

@@ -111,16 +111,6 @@ static bool throws_shadow(const Placed *occluder, const Placed *receiver, const 
     return false;
 }
 
-/* The diameter of the box around everything, doubled. */
-static double scene_size(const Placed *placed, int count)
-{
-    double largest = 0;
-    for (int i = 0; i < count; i++)
-        for (size_t k = 0; k < placed[i].object->mesh->vertex_count; k++)
-            largest = fmax(largest, vec3_length(real3_round(placed[i].vertices[k])));
-    return 4 * largest;
-}
-
 static bool is_lit(const Object *object)
 {
     return object->mesh->colors || !color_is_black(object->front.diffuse) ||
@@ -145,7 +135,12 @@ static int shadow_lights(const Scene *scene, const Placed *occluder, const Place
 static int explain_shadows(const Scene *scene, const Placed *placed, FILE *file)
 {
     int lines = 0;
-    const double size = scene_size(placed, scene->object_count);
+    /* The diameter of the box around everything, doubled. */
+    double largest = 0;
+    for (int i = 0; i < scene->object_count; i++)
+        for (size_t k = 0; k < placed[i].object->mesh->vertex_count; k++)
+            largest = fmax(largest, vec3_length(real3_round(placed[i].vertices[k])));
+    const double size = 4 * largest;
     for (int o = 0; o < scene->object_count; o++) {
         for (int r = 0; r < scene->object_count; r++) {
             int lights[SAMPLES];

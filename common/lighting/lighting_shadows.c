@@ -86,17 +86,6 @@ static void find_ways(LightingPlan *plan, const Scene *scene, bool moved)
     }
 }
 
-/* The number of masks that the programs look up. */
-static int mask_count(const LightingPlan *plan, const Scene *scene)
-{
-    int count = 0;
-    for (int l = 0; l < plan->light_count; l++)
-        if (plan->full ? scene->lights[l].shadows
-                       : plan->lights[l].way != SHADOWS_OFF && !plan->lights[l].in_program)
-            count = effects_channel(plan->shadows, l) / SHADOW_CHANNELS + 1;
-    return count;
-}
-
 bool plan_shadows(LightingPlan *plan, const LightingFrame *frame, bool moved, bool *anew,
                   Message *message)
 {
@@ -115,7 +104,13 @@ bool plan_shadows(LightingPlan *plan, const LightingFrame *frame, bool moved, bo
         !shadow_maps_open(&lighting->maps, &lighting->programs.loader, message))
         return false;
     find_ways(plan, frame->scene, moved);
-    plan->masks = mask_count(plan, frame->scene);
+    /* The number of masks that the programs look up. */
+    int count = 0;
+    for (int l = 0; l < plan->light_count; l++)
+        if (plan->full ? frame->scene->lights[l].shadows
+                       : plan->lights[l].way != SHADOWS_OFF && !plan->lights[l].in_program)
+            count = effects_channel(plan->shadows, l) / SHADOW_CHANNELS + 1;
+    plan->masks = count;
     *anew = maps != plan->maps;
     for (int l = 0; l < plan->light_count; l++)
         *anew |= looks[l] != plan->lights[l].look;

@@ -97,12 +97,6 @@ static void *work(void *argument)
     return NULL;
 }
 
-static int thread_count(const ReferenceOptions *options)
-{
-    const long count = options->threads > 0 ? options->threads : sysconf(_SC_NPROCESSORS_ONLN);
-    return count < 1 ? 1 : count > MAX_THREADS ? MAX_THREADS : (int)count;
-}
-
 /* This thread works too: where others cannot be had it does all. */
 static bool draw_bands(Job *job, int threads)
 {
@@ -167,7 +161,8 @@ bool reference_open(Reference *reference, const Scene *scene, const ReferenceOpt
 {
     Trace *trace = NULL;
     ReferenceOptions own = *options;
-    own.threads = thread_count(options);
+    const long count = options->threads > 0 ? options->threads : sysconf(_SC_NPROCESSORS_ONLN);
+    own.threads = count < 1 ? 1 : count > MAX_THREADS ? MAX_THREADS : (int)count;
     *reference = (Reference){0};
     if (!check(options, message) || !trace_open(&trace, scene, &own, message))
         return false;

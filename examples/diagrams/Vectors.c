@@ -64,18 +64,13 @@ static const Parameter parameters[] = {
     {.name = NULL},
 };
 
-/* One swing takes as long as an animation's turn. */
-static double light_angle(double seconds)
-{
-    const double phase = fmod(DEGREES_PER_SECOND * seconds, 360);
-    return optics.light + swing * mat4_rotate(phase, (Vec3){0, 0, 1}).m[1];
-}
-
 static bool compose(double seconds, Drawing *drawing, Message *message)
 {
     Optics shown = optics;
     (void)message;
-    shown.light = light_angle(seconds);
+    /* One swing takes as long as an animation's turn. */
+    const double phase = fmod(DEGREES_PER_SECOND * seconds, 360);
+    shown.light = optics.light + swing * mat4_rotate(phase, (Vec3){0, 0, 1}).m[1];
     shown.ambient = figure == FIGURE_AMBIENT ? ambient : 0.2;
     shown.reflection = (Reflection)reflection;
     shown.material = material < MATERIAL_COUNT ? &MATERIALS[material].material : &GREY_PLASTIC;

@@ -87,19 +87,6 @@ static void draw_table(Board *board, const Table *table)
     board->area.bottom = top - 0.6 * em;
 }
 
-/* The largest that fits the area. */
-static Frame2 fit(const Board *board, const OpticsVectors *at, Vec3 lamp, Vec3 eye)
-{
-    static const double SIDE = 1.15;
-    const Vec3 ends[] = {at->n, at->l, at->r, at->v, at->h, lamp, eye};
-    DrawingBox units = {-SIDE, 0, SIDE, 0};
-    for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++)
-        figure_cover(&units, ends[i]);
-    DrawingBox area = board->area;
-    area.bottom -= 0.1 * board->em;
-    return figure_fit(area, 1.6 * board->em, units);
-}
-
 static void draw_lobe(Board *board, const Optics *optics, Frame2 frame, const OpticsVectors *at)
 {
     enum { STEPS = 360 };
@@ -162,7 +149,15 @@ void figure_vectors(Board *board, const Optics *optics, int number)
                              {"V", at.v, V_COLOR},
                              {"H", at.h, H_COLOR}};
     draw_table(board, &table);
-    const Frame2 frame = fit(board, &at, lamp, eye);
+    /* The largest that fits the area. */
+    static const double SIDE = 1.15;
+    const Vec3 ends[] = {at.n, at.l, at.r, at.v, at.h, lamp, eye};
+    DrawingBox units = {-SIDE, 0, SIDE, 0};
+    for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++)
+        figure_cover(&units, ends[i]);
+    DrawingBox area = board->area;
+    area.bottom -= 0.1 * board->em;
+    const Frame2 frame = figure_fit(area, 1.6 * board->em, units);
     const DrawingPoint lamp_at = board_at(frame.origin, lamp, frame.unit);
     const DrawingPoint eye_at = board_at(frame.origin, eye, frame.unit);
     figure_surface(board, optics, frame.origin, frame.origin.x - 1.15 * frame.unit,

@@ -292,20 +292,6 @@ static bool judge(Regression *regression, const RegressionPicture *of, Proof *pr
     return proof_of_capture(proof, message) && moved_judge(moved, &question, message);
 }
 
-static bool write_pictures(const Regression *regression, const Picture *now, const Moved *moved,
-                           Message *message)
-{
-    char path[PATH_MAX];
-    const ImageOptions options = {.compress = 6};
-    return output_folder(regression->output, message) &&
-           image_write(&regression->before.image, path_of(regression, now->title, "before", path),
-                       &options, message) &&
-           image_write(&now->image, path_of(regression, now->title, "now", path), &options,
-                       message) &&
-           write_difference(&now->image, moved, path_of(regression, now->title, "difference", path),
-                            message);
-}
-
 static bool say_picture(Regression *regression, RegressionPicture *of, Message *message)
 {
     const Image *before = &regression->before.image;
@@ -340,7 +326,15 @@ static bool say_picture(Regression *regression, RegressionPicture *of, Message *
     regression->wrong += wrong;
     regression->unknown += unknown;
     regression->moved += !wrong && !unknown;
-    const bool done = write_pictures(regression, now, &moved, message);
+    char path[PATH_MAX];
+    const ImageOptions options = {.compress = 6};
+    const bool done =
+        output_folder(regression->output, message) &&
+        image_write(&regression->before.image, path_of(regression, now->title, "before", path),
+                    &options, message) &&
+        image_write(&now->image, path_of(regression, now->title, "now", path), &options, message) &&
+        write_difference(&now->image, &moved, path_of(regression, now->title, "difference", path),
+                         message);
     for (int i = 0; i < changed.count; i++)
         free(changed.places[i]);
     free(changed.places);

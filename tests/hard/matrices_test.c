@@ -427,15 +427,6 @@ DRAWN_TEST(tiny_or_huge_scale_beyond_floats_is_finite)
 enum { STEPS = 1000000 };
 static const double STEP = 0.36; /* a thousand turns */
 
-static Mat4 million_steps(Vec3 axis)
-{
-    Mat4 product = mat4_identity();
-    const Mat4 step = turn(STEP, axis);
-    for (int i = 0; i < STEPS; i++)
-        product = mat4_product(step, product);
-    return product;
-}
-
 static Mat4 drifted_matrix;
 
 static void check_drifted(const char *name, HardWorld *world, HardPrecision precision,
@@ -459,7 +450,11 @@ DRAWN_TEST(rotation_drift_in_double_is_invisible)
 {
     HardWorld world;
     const Vec3 axis = {1, 2, 3};
-    drifted_matrix = million_steps(axis);
+    Mat4 product = mat4_identity();
+    const Mat4 step = turn(STEP, axis);
+    for (int i = 0; i < STEPS; i++)
+        product = mat4_product(step, product);
+    drifted_matrix = product;
     /* Repeated steps drift by the rounding of each, at most 1.1e-16 for each of some 20 operations
      * if all have the same sign, and by the step's own error a million times. */
     assert_true(quad_orthonormality_error(drifted_matrix) < STEPS * 20 * 0x1p-53);

@@ -12,20 +12,15 @@
 
 static const Vec3 BLACK = {0, 0, 0};
 
-static int edges_of(const Mesh *mesh)
+/* Closes the mesh. */
+static int edges_of_made(Mesh *mesh, bool made)
 {
+    require(made, FAILURE);
     CLOSED(overlay_list_close) OverlayList list = {.count = 0};
     overlay_add_edges(&list, mesh, mat4_identity(), BLACK);
     assert_false(list.failed);
     assert_int_equal(list.count % 2, 0);
-    return list.count / 2;
-}
-
-/* And closes the mesh. */
-static int edges_of_made(Mesh *mesh, bool made)
-{
-    require(made, FAILURE);
-    const int count = edges_of(mesh);
+    const int count = list.count / 2;
     mesh_close(mesh);
     return count;
 }

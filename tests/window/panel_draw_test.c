@@ -66,7 +66,7 @@ static PanelContent everything(const Example *example)
                           .notice = "saved some.png"};
 }
 
-static PanelDrawing panel_drawing(const PanelContent *content, double scale)
+static void draw_panel(const PanelContent *content, double scale)
 {
     const WindowInput window = {
         .width = canvas.width, .height = canvas.height, .scale = scale, .x = -1, .y = -1};
@@ -74,12 +74,7 @@ static PanelDrawing panel_drawing(const PanelContent *content, double scale)
     PanelResult result;
     for (int i = 0; i < 3; i++)
         SUCCEEDS(panel_frame(panel, &input, content, &result, message));
-    return result.drawing;
-}
-
-static void draw_panel(const PanelContent *content, double scale)
-{
-    const PanelDrawing drawing = panel_drawing(content, scale);
+    const PanelDrawing drawing = result.drawing;
     SUCCEEDS(panel_draw(&draw, &drawing, canvas.width, canvas.height, message));
 }
 
