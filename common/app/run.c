@@ -10,6 +10,9 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <string.h>
 
 bool run_check_first(const Options *options, Message *message)
@@ -134,6 +137,11 @@ int example_main(const Example *example, int argc, char *argv[])
     int code;
     Message message = {0};
     const Usage usage = options_usage(example);
+#ifdef __GLIBC__
+    /* Mesa takes memory for a large mesh's vertices in each frame; given back to the system in
+     * between, it is cleared each time, in more than half of the frame's time. */
+    mallopt(M_TRIM_THRESHOLD, 1 << 29);
+#endif
     for (int i = 0; example->parameters && example->parameters[i].name; i++)
         defaults[i] = parameter_save(&example->parameters[i]);
     if (!options_begin(&options, &usage, argc, argv, &code))

@@ -37,12 +37,30 @@ MeshBox mesh_bounds(const Mesh *mesh)
     return box;
 }
 
-bool mesh_face(const Mesh *mesh, size_t triangle, Vec3 *normal)
+static inline Vec3 edge(const Mesh *mesh, uint32_t from, uint32_t to)
+{
+    const float *a = mesh->vertices[from].position, *b = mesh->vertices[to].position;
+    return (Vec3){(double)b[0] - (double)a[0], (double)b[1] - (double)a[1],
+                  (double)b[2] - (double)a[2]};
+}
+
+/* Of twice the triangle's area. */
+static Vec3 across(const Mesh *mesh, size_t triangle)
 {
     const uint32_t *corner = &mesh->indices[3 * triangle];
-    const Vec3 a = position_of(mesh, corner[0]), b = position_of(mesh, corner[1]);
-    const Vec3 c = position_of(mesh, corner[2]);
-    return vec3_normalize(vec3_cross(vec3_subtract(b, a), vec3_subtract(c, a)), normal);
+    return vec3_cross(edge(mesh, corner[0], corner[1]), edge(mesh, corner[0], corner[2]));
+}
+
+bool mesh_face(const Mesh *mesh, size_t triangle, Vec3 *normal)
+{
+    return vec3_normalize(across(mesh, triangle), normal);
+}
+
+bool mesh_has_area(const Mesh *mesh, size_t triangle)
+{
+    const Vec3 area = across(mesh, triangle);
+    const double square = vec3_dot(area, area); /* of floats: neither 0 nor infinite by rounding */
+    return square > 0 && square < HUGE_VAL;
 }
 
 /* 0 times a finite number is 0, times any other NaN. */
@@ -76,10 +94,9 @@ bool mesh_check(const Mesh *mesh, Message *message)
     return true;
 }
 
-static double corner_weight(Vec3 a, Vec3 b, MeshWeight weight)
+/* `sine` and the cosine both times |a| |b|: twice the area, the same at all corners. */
+static double corner_weight(double sine, Vec3 a, Vec3 b, MeshWeight weight)
 {
-    const double sine = vec3_length(vec3_cross(a, b)); /* both times |a| |b| */
-    const double cosine = vec3_dot(a, b);
     switch (weight) {
     case MESH_WEIGHT_AREA:
         return sine / 2;
@@ -88,7 +105,7 @@ static double corner_weight(Vec3 a, Vec3 b, MeshWeight weight)
     case MESH_WEIGHT_ANGLE:
         break;
     }
-    return atan2(sine, cosine);
+    return atan2(sine, vec3_dot(a, b));
 }
 
 bool mesh_compute_normals(Mesh *mesh, MeshWeight weight, Message *message)
@@ -107,19 +124,22 @@ bool mesh_compute_normals(Mesh *mesh, MeshWeight weight, Message *message)
         vec3_to_float((Vec3){0, 0, 1}, mesh->vertices[i].normal);
     for (size_t triangle = 0; triangle < mesh->index_count / 3; triangle++) {
         const uint32_t *corner = &mesh->indices[3 * triangle];
+        const Vec3 area = across(mesh, triangle);
+        const double sine = vec3_length(area);
         Vec3 normal;
-        if (!mesh_face(mesh, triangle, &normal))
+        if (!vec3_normalize(area, &normal))
             continue;
         for (int i = 0; i < 3; i++) {
             const uint32_t vertex = corner[i];
-            const Vec3 here = position_of(mesh, vertex);
-            const double share =
-                corner_weight(vec3_subtract(position_of(mesh, corner[(i + 1) % 3]), here),
-                              vec3_subtract(position_of(mesh, corner[(i + 2) % 3]), here), weight);
-            if (sums[vertex].weights == 0)
+            Sum *sum = &sums[vertex];
+            const double share = corner_weight(sine, edge(mesh, vertex, corner[(i + 1) % 3]),
+                                               edge(mesh, vertex, corner[(i + 2) % 3]), weight);
+            if (sum->weights == 0)
                 vec3_to_float(normal, mesh->vertices[vertex].normal);
-            sums[vertex].normals = vec3_add(sums[vertex].normals, vec3_scale(normal, share));
-            sums[vertex].weights += share;
+            sum->normals.x += normal.x * share;
+            sum->normals.y += normal.y * share;
+            sum->normals.z += normal.z * share;
+            sum->weights += share;
         }
     }
     for (size_t i = 0; i < mesh->vertex_count; i++) {

@@ -289,8 +289,10 @@ static int read_primitive(Reading *reading, const json_t *primitive, Vec3 tint)
     Attributes from = {.tint = tint};
     size_t vertices = 0, count = 0;
     Mesh *mesh = NULL;
+    const json_int_t places = gltf_whole(json_object_get(primitive, "attributes"), "POSITION", -1);
+    const json_t *accessors = json_object_get(reading->gltf.root, "accessors");
     if (gltf_extension(primitive, "KHR_draco_mesh_compression") &&
-        !json_object_get(primitive, "indices"))
+        !json_object_get(json_array_get(accessors, (size_t)places), "bufferView"))
         message_set(reading->gltf.reason, "its meshes are compressed by Draco; save it without");
     from.positions = read_positions(reading, primitive, &vertices);
     uint32_t *corners = from.positions ? read_corners(reading, primitive, vertices, &count) : NULL;

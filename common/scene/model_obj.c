@@ -422,7 +422,9 @@ static bool read_bytes(const char *path, char *bytes, SceneFile *file, Message *
     Obj obj = {.file = file,
                .reason = reason,
                .folder = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC),
-               .at = bytes};
+               .at = bytes + (strncmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0)}; /* UTF-8 */
+    for (char *end = strchr(bytes, '\n') ? NULL : strchr(bytes, '\r'); end; end = strchr(end, '\r'))
+        *end = '\n'; /* lines of old Macintoshes */
     const bool done = read_lines(&obj);
     for (int i = 0; i < obj.paint_count; i++)
         free(obj.paints[i].name);

@@ -285,8 +285,7 @@ static void tidy(Mesh *mesh)
 {
     size_t kept = 0;
     for (size_t i = 0; i < mesh->index_count / 3; i++) {
-        Vec3 normal;
-        if (!mesh_face(mesh, i, &normal))
+        if (!mesh_has_area(mesh, i))
             continue;
         memmove(&mesh->indices[3 * kept++], &mesh->indices[3 * i], 3 * sizeof *mesh->indices);
     }

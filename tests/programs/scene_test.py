@@ -10,6 +10,7 @@ import json
 import math
 import random
 import re
+import resource
 import struct
 import sys
 import zlib
@@ -383,8 +384,33 @@ class Scene(base.Case):
         for none in False, 3, None, -1:
             yield "a.gltf", tetrahedron(nodes=[{"mesh": 0, "extensions": {"KHR_lights_punctual": {"light": none}}}]), "there is none"
         yield "a.gltf", tetrahedron(extensionsRequired=["KHR_draco_mesh_compression"]), "requires KHR_draco"
+        packed = tetrahedron()
+        packed["meshes"][0]["primitives"][0]["extensions"] = {"KHR_draco_mesh_compression": {"bufferView": 0}}
+        for accessor in packed["accessors"]:
+            del accessor["bufferView"]
+        yield "a.gltf", packed, "compressed by Draco"
         yield "a.dae", b"<COLLADA>", "cannot read"
         yield "a.obj", b"mtllib ../../../etc/passwd\n", "cannot read"
+
+    def test_frames_of_large_meshes_take_no_new_memory(self):
+        """What Mesa takes for the vertices of a frame is not given back to the system, which clears it."""
+        side = 200
+        places = struct.pack(f"<{3 * side * side}f", *(x for i in range(side * side) for x in (i % side, i // side, i * i % 7)))
+        corners = [i + k for i in range(side * (side - 1)) if i % side < side - 1 for k in (0, 1, side, side, 1, side + 1)]
+        data = places + struct.pack(f"<{len(corners)}I", *corners)
+        file = tetrahedron()
+        file["accessors"][0].update(count=side * side)
+        file["accessors"][1].update(count=len(corners), componentType=5125)
+        file["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = 0
+        file["bufferViews"] = [{"buffer": 0, "byteLength": len(places)},
+                               {"buffer": 0, "byteOffset": len(places), "byteLength": 4 * len(corners)}]
+        self.save("a.glb", glb(file, data))
+        faults = []
+        for count in 1, 11:
+            before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_minflt
+            self.good("a.glb", *base.SMALL, "-n", str(count), "-o", "%d.ppm", program="Scene")
+            faults.append(resource.getrusage(resource.RUSAGE_CHILDREN).ru_minflt - before)
+        self.assertLess(faults[1] - faults[0], 1000, faults)
 
     def test_bad_files_end_with_one_line(self):
         for name, file, what in self.bad_files():
