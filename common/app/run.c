@@ -8,11 +8,9 @@
 #include "base/clock.h"
 #include "base/output.h"
 
+#include <malloc.h>
 #include <stdio.h>
 #include <stdlib.h>
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 #include <string.h>
 
 bool run_check_first(const Options *options, Message *message)
@@ -137,7 +135,7 @@ int example_main(const Example *example, int argc, char *argv[])
     int code;
     Message message = {0};
     const Usage usage = options_usage(example);
-#ifdef __GLIBC__
+#ifdef M_TRIM_THRESHOLD
     /* Mesa takes memory for a large mesh's vertices in each frame; given back to the system in
      * between, it is cleared each time, in more than half of the frame's time. */
     mallopt(M_TRIM_THRESHOLD, 1 << 29);

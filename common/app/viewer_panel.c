@@ -118,6 +118,7 @@ static void close_effects(ViewerPanel *panel)
     for (int i = 0; i < panel->objects.count; i++) {
         free(panel->objects.all[i].row);
         free(panel->objects.all[i].effects);
+        free(panel->objects.all[i].same);
     }
     free(panel->objects.all);
     free(panel->effects);

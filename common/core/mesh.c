@@ -56,13 +56,6 @@ bool mesh_face(const Mesh *mesh, size_t triangle, Vec3 *normal)
     return vec3_normalize(across(mesh, triangle), normal);
 }
 
-bool mesh_has_area(const Mesh *mesh, size_t triangle)
-{
-    const Vec3 area = across(mesh, triangle);
-    const double square = vec3_dot(area, area); /* of floats: neither 0 nor infinite by rounding */
-    return square > 0 && square < HUGE_VAL;
-}
-
 /* 0 times a finite number is 0, times any other NaN. */
 static bool finite_vector(const float v[3])
 {
@@ -136,9 +129,7 @@ bool mesh_compute_normals(Mesh *mesh, MeshWeight weight, Message *message)
                                                edge(mesh, vertex, corner[(i + 2) % 3]), weight);
             if (sum->weights == 0)
                 vec3_to_float(normal, mesh->vertices[vertex].normal);
-            sum->normals.x += normal.x * share;
-            sum->normals.y += normal.y * share;
-            sum->normals.z += normal.z * share;
+            sum->normals = vec3_add(sum->normals, vec3_scale(normal, share));
             sum->weights += share;
         }
     }

@@ -59,7 +59,6 @@ MeshBox mesh_bounds(const Mesh *mesh);
 /* The unit normal of triangle number `triangle`, on the side from which it is counter-clockwise.
  * False, and a zero vector, if it has no area. */
 bool mesh_face(const Mesh *mesh, size_t triangle, Vec3 *normal);
-bool mesh_has_area(const Mesh *mesh, size_t triangle);
 
 /* Whether positions and normals are finite, colors 0 to 1 and indices in range: "mesh: vertex 7:
  * position (nan, 0, 1): must be finite". */

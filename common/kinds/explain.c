@@ -72,26 +72,11 @@ static const ExplainedObject *write_effects(const LightingPlan *plan, int number
     return &explained->all[explained->count - 1];
 }
 
-/* "object 12, Lid: lights 0, 3". */
-static void list_object(const LightingPlan *plan, int object, const char *name, const char *effects,
-                        PanelObjects *objects)
+static int by_effects(const void *a, const void *b)
 {
-    const Effects decided = lighting_plan_effects(plan, object);
-    uint64_t lights = 0;
-    OutputText row;
-    output_text_open(&row);
-    fprintf(row.file, "object %d%s%.*s", object, name[0] ? ", " : "", (int)strcspn(name, "\n"),
-            name);
-    for (int g = 0; g < decided.group_count; g++)
-        for (int i = 0; i < decided.groups[g].count; i++)
-            lights |= 1ull << decided.groups[g].lights[i];
-    for (int i = 0; lights >> i; i++)
-        if (lights >> i & 1)
-            fprintf(row.file, "%s%d", lights & ((1ull << i) - 1) ? ", " : ": lights ", i);
-    fputs(lights ? "" : ": no light", row.file);
-    *(PanelObject *)memory_add(&objects->all, &objects->count, &objects->room,
-                               sizeof(PanelObject)) =
-        (PanelObject){output_text_close(&row), memory_text(effects)};
+    const PanelObject *one = a, *other = b;
+    const int order = strcmp(one->same, other->same);
+    return order ? order : one->number - other->number;
 }
 
 /* What is drawn of a view. */
@@ -112,18 +97,23 @@ void explain_effects(Renderer *renderer, const DrawRequest *request, FILE *file,
     for (int number = 0; number < scene_view_count(renderer); number++) {
         SceneView view;
         LightingPlan plan = {.lighting = NULL};
+        int place[4];
         if (scene_view_open(&view, renderer, request, request->seconds, number, NULL) &&
+            scene_view_place(renderer, number, place) &&
             plan_view(&plan, renderer, request, &view, NULL))
             for (int i = 0; i < view.scene.object_count; i++) {
                 const char *known = view.scene.objects[i].name, *name = known ? known : "";
                 fprintf(file, "# %s, view %d, object %d%s%s", renderer->example->name, number, i,
                         name[0] ? ", " : "", name);
                 const ExplainedObject *as = write_effects(&plan, number, i, &explained, file);
-                list_object(&plan, i, name, as->text, objects);
+                handles_ring(&view.scene.camera, place, plan.objects[i].place.sphere,
+                             explain_list(&plan, i, name, as->text, objects)->ring);
             }
         lighting_plan_close(&plan);
         scene_view_close(&view);
     }
+    if (objects->count)
+        qsort(objects->all, (size_t)objects->count, sizeof *objects->all, by_effects);
     explained_close(&explained);
 }
 

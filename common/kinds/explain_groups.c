@@ -125,3 +125,31 @@ bool *explain_groups(const LightingPlan *plan)
     free(groups);
     return first;
 }
+
+/* "object 12, Lid: lights 0, 3". */
+PanelObject *explain_list(const LightingPlan *plan, int object, const char *name,
+                          const char *effects, PanelObjects *objects)
+{
+    const Effects decided = lighting_plan_effects(plan, object);
+    PanelObject *listed =
+        memory_add(&objects->all, &objects->count, &objects->room, sizeof *listed);
+    uint64_t lights = 0;
+    OutputText row, same;
+    output_text_open(&row);
+    output_text_open(&same);
+    put_effects(&decided, same.file);
+    fprintf(row.file, "object %d%s%.*s", object, name[0] ? ", " : "", (int)strcspn(name, "\n"),
+            name);
+    for (int g = 0; g < decided.group_count; g++)
+        for (int i = 0; i < decided.groups[g].count; i++)
+            lights |= 1ull << decided.groups[g].lights[i];
+    for (int i = 0; lights >> i; i++)
+        if (lights >> i & 1)
+            fprintf(row.file, "%s%d", lights & ((1ull << i) - 1) ? ", " : ": lights ", i);
+    fputs(lights ? "" : ": no light", row.file);
+    *listed = (PanelObject){.row = output_text_close(&row),
+                            .effects = memory_text(effects),
+                            .same = output_text_close(&same),
+                            .number = objects->count - 1};
+    return listed;
+}

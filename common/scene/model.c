@@ -37,23 +37,8 @@ static void add_object(const Mesh *part, Mat4 world_from_part, Mesh *mesh)
     }
 }
 
-/* Whether a file has one mesh alone, where it is: then that is taken, and not copied. */
-static bool take_only(SceneFile *file, const Mat4 *poses, Mesh *mesh)
-{
-    const Mat4 identity = mat4_identity();
-    if (file->object_count != 1 || file->mesh_count != 1 || file->meshes[0].colors ||
-        memcmp(&poses[file->objects[0].node], &identity, sizeof identity) != 0)
-        return false;
-    *mesh = file->meshes[0];
-    file->meshes[0] = (Mesh){.vertices = NULL};
-    for (size_t i = 0; i < mesh->vertex_count; i++)
-        for (int k = 0; k < 3; k++) /* -0 is 0 */
-            mesh->vertices[i].position[k] += 0, mesh->vertices[i].normal[k] += 0;
-    return true;
-}
-
 /* All meshes of a file, where its nodes have them. */
-static bool flatten(const char *path, SceneFile *file, Mesh *mesh, Message *message)
+static bool flatten(const char *path, const SceneFile *file, Mesh *mesh, Message *message)
 {
     size_t vertices = 0, indices = 0;
     Message why = {0};
@@ -63,17 +48,14 @@ static bool flatten(const char *path, SceneFile *file, Mesh *mesh, Message *mess
     }
     if (!scene_file_fits(vertices, indices, &why))
         return message_set(message, "%s: cannot read: %s", path, why.text);
+    if (!mesh_open(mesh, vertices, indices, message))
+        return false;
+    mesh->vertex_count = mesh->index_count = 0;
     Mat4 *poses = memory_new((size_t)file->node_count + 1, sizeof *poses);
     scene_file_pose(file, 0, poses);
-    bool done = take_only(file, poses, mesh);
-    if (!done && (done = mesh_open(mesh, vertices, indices, message))) {
-        mesh->vertex_count = mesh->index_count = 0;
-        for (int i = 0; i < file->object_count; i++)
-            add_object(&file->meshes[file->objects[i].mesh], poses[file->objects[i].node], mesh);
-    }
+    for (int i = 0; i < file->object_count; i++)
+        add_object(&file->meshes[file->objects[i].mesh], poses[file->objects[i].node], mesh);
     free(poses);
-    if (!done)
-        return false;
     return mesh_check(mesh, &why) || message_set(message, "%s: %s", path, why.text);
 }
 
@@ -109,7 +91,8 @@ static bool join(const char *path, const Mesh *parts, Mesh *mesh, Message *messa
     }
     mesh->vertex_count = mesh->index_count = 0;
     for (size_t triangle = 0; triangle < parts->index_count / 3; triangle++) {
-        if (!mesh_has_area(parts, triangle))
+        Vec3 normal;
+        if (!mesh_face(parts, triangle, &normal))
             continue;
         for (size_t i = 3 * triangle; i < 3 * triangle + 3; i++) {
             uint32_t *place = &places[parts->indices[i]];
@@ -153,16 +136,14 @@ static bool fill_normals(Mesh *mesh, Message *message)
 
 static bool complete_normals(Mesh *mesh, Message *message)
 {
-    size_t missing = 0;
+    bool missing = false;
     for (size_t i = 0; i < mesh->vertex_count; i++) {
         float *normal = mesh->vertices[i].normal;
         Vec3 unit;
         vec3_normalize((Vec3){normal[0], normal[1], normal[2]}, &unit);
         vec3_to_float(unit, normal);
-        missing += is_zero(normal);
+        missing |= is_zero(normal);
     }
-    if (missing == mesh->vertex_count)
-        return mesh_compute_normals(mesh, MESH_WEIGHT_ANGLE, message);
     return !missing || fill_normals(mesh, message);
 }
 
@@ -194,8 +175,10 @@ static bool is_joined(const Mesh *mesh)
     for (size_t i = 0; i < mesh->vertex_count && joined; i++)
         joined = used[i];
     free(used);
-    for (size_t i = 0; i < mesh->index_count / 3 && joined; i++)
-        joined = mesh_has_area(mesh, i);
+    for (size_t i = 0; i < mesh->index_count / 3 && joined; i++) {
+        Vec3 normal;
+        joined = mesh_face(mesh, i, &normal);
+    }
     return joined;
 }
 

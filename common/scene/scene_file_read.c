@@ -285,7 +285,8 @@ static void tidy(Mesh *mesh)
 {
     size_t kept = 0;
     for (size_t i = 0; i < mesh->index_count / 3; i++) {
-        if (!mesh_has_area(mesh, i))
+        Vec3 normal;
+        if (!mesh_face(mesh, i, &normal))
             continue;
         memmove(&mesh->indices[3 * kept++], &mesh->indices[3 * i], 3 * sizeof *mesh->indices);
     }

@@ -57,6 +57,18 @@ int handles_add(Handle handles[HANDLES_MAX], int count, const Scene *scene, int 
     return count;
 }
 
+void handles_ring(const Camera *camera, const int place[4], Sphere sphere, float ring[3])
+{
+    Lens lens;
+    if (!lens_of(camera, place, &lens))
+        return;
+    const Vec3 eye = scene_eye_point(camera, lens.eye_from_world, sphere.center);
+    const double scale = place[3] / (-2 * eye.z * lens.y); /* the pixels are square */
+    ring[0] = (float)(place[0] + place[2] / 2.0 + scale * eye.x);
+    ring[1] = (float)(place[1] + place[3] / 2.0 - scale * eye.y);
+    ring[2] = (float)(scale * sphere.radius);
+}
+
 const Handle *handles_find(const Handle *handles, int count, double x, double y, double reach)
 {
     const Handle *nearest = NULL;

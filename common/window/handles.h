@@ -20,6 +20,9 @@ enum { HANDLES_MAX = 64 };
 int handles_add(Handle handles[HANDLES_MAX], int count, const Scene *scene, int view,
                 const int place[4]);
 
+/* Around a sphere in the picture: x, y and radius, which is not positive behind the eye. */
+void handles_ring(const Camera *camera, const int place[4], Sphere sphere, float ring[3]);
+
 /* The nearest within `reach` pixels of (x, y); NULL: none. */
 const Handle *handles_find(const Handle *handles, int count, double x, double y, double reach);
 

@@ -59,9 +59,12 @@ typedef struct PanelPixel {
     const char *legend;       /* what its colours mean, in lines */
 } PanelPixel;
 
-/* The objects of a picture: what is in their list, and the lines of each one's effects. */
+/* The objects of a picture: what is in their list, and the lines of each one's effects. Those with
+ * the same in a few words follow each other. */
 typedef struct PanelObject {
-    char *row, *effects;
+    char *row, *effects, *same;
+    int number;
+    float ring[3]; /* around it: handles_ring */
 } PanelObject;
 typedef struct PanelObjects {
     PanelObject *all;

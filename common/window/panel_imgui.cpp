@@ -182,7 +182,7 @@ void errors_window(Context &context, const char *errors)
     ImGui::PopStyleColor(2);
 }
 
-// Rings with numbers, behind the panel.
+// Rings with numbers, behind the panel; and one around the object that was chosen.
 void draw_marks(const Context &context, const PanelContent &content)
 {
     ImDrawList *list = ImGui::GetBackgroundDrawList();
@@ -199,6 +199,12 @@ void draw_marks(const Context &context, const PanelContent &content)
         list->AddCircle(at, radius, IM_COL32(0, 0, 0, 255), 24, 3.5f * context.scale);
         list->AddCircle(at, radius, color, 24, 1.5f * context.scale);
         list->AddText(ImVec2(at.x + radius, at.y + radius / 2), color, number);
+    }
+    for (int i = 0; i < content.objects.count && content.objects.count > MANY; i++) {
+        const float *ring = content.objects.all[i].ring;
+        const ImVec2 at(ring[0], ring[1] + float(place[1]));
+        if (content.objects.all[i].number == context.object && ring[2] > 0)
+            list->AddCircle(at, ring[2], IM_COL32(255, 210, 80, 255), 64, 2 * context.scale);
     }
     list->PopClipRect();
 }
@@ -337,7 +343,7 @@ void make_frame(Context &context, const PanelContent &content, PanelResult &resu
     const ImGuiIO &io = ImGui::GetIO();
     result.wants_pointer = io.WantCaptureMouse;
     result.wants_keys = io.WantTextInput || popup_open(); // as they were when the keys were hit
-    if (content.view == PANEL_OPEN && content.marks)
+    if (content.view == PANEL_OPEN)
         draw_marks(context, content);
     if (content.view != PANEL_HIDDEN)
         panel_window(context, content, result);

@@ -32,7 +32,7 @@ struct Context {
     const char *reset_sign = "<";
     unsigned generation = 0;
     Typing typing = {};
-    int object = 0;         // whose effects are shown, of many: by its place in the list
+    int object = -1;        // that was chosen of many, by its number
     float other_height = 0; // of the panel without its list of effects, in the frame before
     const PanelInput *input = nullptr; // of this frame
     std::vector<PanelVertex> vertices;
@@ -55,6 +55,8 @@ bool edit(Context &context, const Parameter &parameter, float width);
 
 // Whether the number is being typed into a field that is shown.
 bool is_typed(const Typing &typing);
+
+constexpr int MANY = 8; // objects: a list
 
 // panel_sections: what is below the title, in a window that may be `max` high.
 void sections(Context &context, const PanelContent &content, float max, PanelResult &result);

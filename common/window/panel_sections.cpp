@@ -305,30 +305,48 @@ void pixel_section(const PanelContent &content, PanelResult &result)
     ImGui::PopStyleColor();
 }
 
-// One of many objects is chosen from a list that scrolls; its effects are below.
+// The rows of some objects that follow each other.
+void put_rows(Context &context, const PanelObject *objects, int count)
+{
+    ImGuiListClipper clipper;
+    clipper.Begin(count);
+    while (clipper.Step())
+        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; i++) {
+            const int number = objects[i].number;
+            ImGui::PushID(number); // rows may be equal
+            if (ImGui::Selectable(objects[i].row, number == context.object))
+                context.object = number == context.object ? -1 : number;
+            ImGui::PopID();
+        }
+}
+
+// One of many objects is chosen from a list that scrolls, in which those with the same effects are
+// a row that opens; its effects are below.
 void put_objects(Context &context, const PanelObjects &objects, float height)
 {
-    context.object = std::min(std::max(context.object, 0), objects.count - 1);
-    if (ImGui::BeginChild("objects", ImVec2(0, height / 2), true)) {
-        ImGuiListClipper clipper;
-        clipper.Begin(objects.count);
-        while (clipper.Step())
-            for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; i++) {
-                ImGui::PushID(i); // rows may be equal
-                if (ImGui::Selectable(objects.all[i].row, i == context.object))
-                    context.object = i;
-                ImGui::PopID();
-            }
-    }
+    const PanelObject *all = objects.all, *shown = all;
+    if (ImGui::BeginChild("objects", ImVec2(0, height / 2), true))
+        for (int i = 0, end; i < objects.count; i = end) {
+            for (end = i + 1; end < objects.count && std::strcmp(all[i].same, all[end].same) == 0;)
+                end++;
+            const bool alone = end == i + 1;
+            if (!alone && !ImGui::TreeNode(all[i].same, "%d of %d objects: %s", end - i,
+                                           objects.count, all[i].same))
+                continue;
+            put_rows(context, all + i, end - i);
+            if (!alone)
+                ImGui::TreePop();
+        }
     ImGui::EndChild();
-    put_lines("effects", objects.all[context.object].effects, height / 2, effect_color);
+    for (int i = 0; i < objects.count; i++)
+        shown = all[i].number == context.object ? &all[i] : shown;
+    put_lines("effects", shown->effects, height / 2, effect_color);
 }
 
 // As high as the rest of the panel leaves room for. Returns its height.
 float effects_section(Context &context, const PanelContent &content, float room)
 {
     constexpr float MIN_LINES = 4, MAX_LINES = 16;
-    constexpr int MANY = 8; // objects: a list
     if (!content.effects || !content.effects[0] ||
         !ImGui::CollapsingHeader("Effects", ImGuiTreeNodeFlags_DefaultOpen))
         return 0;

@@ -97,6 +97,8 @@ The command reads other formats, too.</small></p>
 <p id="files-said" role="status"></p>
 </section>
 """
+NO_FILES = """<p><small>In one file this page reads no models. That of all pages does: <code>examples/run web -o pages</code>, then
+pages/%s.html.</small></p>"""
 EXPLAIN = """<details id="explain"><summary>What is computed, and why (<code>--explain</code>)</summary>
 <pre id="explained" tabindex="0"></pre></details>"""
 
@@ -204,7 +206,8 @@ def page(folder, name, parts, single):
     before = predecessors.get(name)
     link = before if single else f'<a href="{before}.html">{before}</a>'
     scene = folder != "lecture"
-    files = FILES % ("A scene of your own" if folder == "file" else "A model instead of the shape", weight(["reader.js"]))
+    files = NO_FILES % name if single else FILES % ("A scene of your own" if folder == "file" else "A model instead of the shape",
+                                                    weight(["reader.js"]))
     more = EXPLAIN if scene else ""
     if before:
         more = (f"<details class=\"diff\"><summary>What differs from {before}</summary>\n<p>The predecessor is {link}.</p>\n"
@@ -212,7 +215,7 @@ def page(folder, name, parts, single):
     links = "" if single else '<nav aria-label="Pages"><a href="index.html">All programs</a></nav>'
     shaders = SHADERS % (ASSEMBLED if scene else "", EDITOR % ("shader file", ALL)) + more
     # A lecture program is its shaders; a scene its options.
-    return fill("program.html", name=name, files=files if reads_files(folder, name) and not single else "", summary=html.escape(summary(folder, name)), links=links,
+    return fill("program.html", name=name, files=files if reads_files(folder, name) else "", summary=html.escape(summary(folder, name)), links=links,
                 first="" if scene else shaders, last=shaders if scene else "", exact=EXACT if scene else NO_SCENE,
                 only="<code>--error</code>, " if scene else "", pointed=" ".join(POINTED), weight=f"{weight([*POINTED, 'pixel.css']):.0f}", **parts)
 

@@ -331,6 +331,12 @@ class Scene(base.Case):
         if len(cases) > 1:  # else the one may lack them
             self.assertLessEqual({"beyond its range", "its cone misses"}, rules)
 
+    def test_obj_may_have_a_mark_and_other_ends_of_lines(self):
+        lines = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n"
+        pictures = [self.drawn(self.save("a.obj", mark + lines.replace(b"\n", end)), *base.SMALL, program="Scene").pixels
+                    for mark, end in ((b"", b"\n"), (b"\xef\xbb\xbf", b"\n"), (b"", b"\r\n"), (b"", b"\r"))]
+        self.assertEqual(pictures, pictures[:1] * 4)
+
     def bad_files(self):
         """Name, file, what its message says."""
         def changed(path, value):

@@ -222,17 +222,6 @@ TEST(positive_and_negative_zero_are_the_same_position)
     assert_counts(&mesh, 4, 2);
 }
 
-TEST(an_obj_file_may_have_a_mark_and_other_ends_of_lines)
-{
-    static const char *const files[] = {"\xef\xbb\xbfv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
-                                        "v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf -3 -2 -1\r\n",
-                                        "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r"};
-    for (int i = 0; i < 3; i++) {
-        CLOSED(mesh_close) Mesh mesh = read_sound("lines.obj", text(files[i]));
-        assert_counts(&mesh, 3, 1);
-    }
-}
-
 TEST(polygons_are_triangulated_and_degenerate_ones_dropped)
 {
     /* An arrowhead, which is not convex; a line and a point; a collinear triangle and one with two

@@ -927,6 +927,7 @@ class Pages(Case):
             shutil.copy(os.path.join(SITE, "single/TermsApart.html"), folder)
             self.page.open(pathlib.Path(folder, "TermsApart.html").as_uri())
             self.assert_native()
+            self.assertIn("reads no models", self.text("main"))
             self.page.click("#compare")
             self.page.wait("!document.getElementById('exact').hidden")
 

@@ -893,7 +893,11 @@ PANEL_TEST(test_no_input_makes_an_impossible_value)
     content.command = "LightedCube";
     PanelObject objects[20];
     for (int i = 0; i < 20; i++)
-        objects[i] = (PanelObject){i % 2 ? "object, Lid: lights 0, 3" : "", i % 3 ? "diffuse" : ""};
+        objects[i] = (PanelObject){i % 2 ? "object, Lid: lights 0, 3" : "",
+                                   i % 3 ? "diffuse" : "",
+                                   i > 9 ? "few" : "diffuse",
+                                   i,
+                                   {NAN, (float)i, 1e30f}};
     content.objects = (PanelObjects){objects, 20, 20};
     for (int i = 0; i < 6000; i++) {
         random = random * 6364136223846793005U + 1442695040888963407U;
@@ -914,6 +918,44 @@ PANEL_TEST(test_no_input_makes_an_impossible_value)
         assert_readable(parameters);
     }
     assert_int_not_equal(access("imgui.ini", F_OK), 0); /* no file is left */
+}
+
+/* The number of the object that has a ring; -1: none. */
+static int ringed(void)
+{
+    double left = HUGE_VAL;
+    for (int i = 0; i < result.drawing.vertex_count; i++)
+        if (memcmp(result.drawing.vertices[i].color, (uint8_t[]){255, 210, 80, 255}, 4) == 0)
+            left = fmin(left, (double)result.drawing.vertices[i].x);
+    return left < LEFT ? (int)(left / 20) - 1 : -1;
+}
+
+/* Twelve have the same effects, and then eight have others each. */
+PANEL_TEST(test_objects_with_the_same_effects_are_a_row_that_opens)
+{
+    const double x = LEFT + 60;
+    double y = 45;
+    PanelObject objects[20];
+    for (int i = 0; i < 20; i++)
+        objects[i] = (PanelObject){"object", "diffuse", i < 12 ? "few" : &"abcdefgh" [i - 12], i, {
+                                       (float)(20 * i + 38), 300, 8
+                                   }};
+    content.effects = "diffuse";
+    content.objects = (PanelObjects){objects, 20, 20};
+    frames(3);
+    for (; y < 690 && ringed() < 0; y += 6) {
+        const int before = result.drawing.vertex_count;
+        click(x, y);
+        if (result.drawing.vertex_count < before - 40) /* it was a heading */
+            click(x, y);
+    }
+    const int first = ringed();
+    assert_true(first == 0 || first == 12); /* of the row if that is open, or below it */
+    click(x, y - 18);
+    click(x, y - 6);
+    assert_int_equal(ringed(), 12 - first);
+    click(x, y - 6);
+    assert_int_equal(ringed(), -1);
 }
 
 PANEL_TEST(test_a_value_out_of_its_range_is_shown_and_stays)
