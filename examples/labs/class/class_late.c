@@ -29,22 +29,21 @@ static int days_after(long long due, long long when)
 static bool read_line(FoundList *list, const Lab *lab, char *line, Message *message)
 {
     char *comma = strrchr(line, ','), *end = comma;
-    const char *when = comma ? comma + 1 : "";
     long long time;
     bool found = false;
-    long days = strtol(when, &end, 10);
-    if (lab->points.due && lab_time_read(when, &time))
+    long days = comma ? strtol(comma + 1, &end, 10) : 0;
+    if (comma && lab->points.due && lab_time_read(comma + 1, &time))
         days = days_after(lab->points.due, time);
-    else if (end == when || end[strspn(end, " \r")] || days < 0 || days > 10000)
-        return message_set(message,
-                           "must be a student's name or number, a comma, and how many days "
-                           "late or, if lab.json has \"due\", like 2026-11-21 08:00");
+    else if (!comma || end == comma + 1 || end[strspn(end, " \r")] || days < 0 || days > 10000)
+        return message_set(message, "must be a student's name or number, a comma, and days late "
+                                    "or, if lab.json has \"due\", like 2026-11-21 08:00");
     *comma = '\0';
     for (int i = 0; i < list->count; i++) {
         Found *of = &list->items[i];
-        const bool same = strcmp(of->name.student, line) == 0 || strcmp(of->name.id, line) == 0;
-        of->days_late = same ? (int)days : of->days_late;
-        found |= same;
+        if (strcmp(of->name.student, line) != 0 && strcmp(of->name.id, line) != 0)
+            continue;
+        of->days_late = (int)days;
+        found = true;
     }
     return found || message_set(message, "\"%.80s\": no submission has this name or number", line);
 }

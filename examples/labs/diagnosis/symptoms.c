@@ -1,5 +1,5 @@
 /* What can be said without a name: sums over the pixels inside objects. Errors in lit and in unlit
- * parts, in each channel and in each scene point to different terms of the sum; the worst pixel has
+ * parts and in each scene point to different terms of the sum; the worst pixel has
  * its two colours, for those who want to calculate. */
 #include "labs/diagnosis/diagnose.h"
 
@@ -9,7 +9,6 @@
 typedef struct Overview {
     double pixels, bright_pixels;
     double dark, bright; /* drawn minus exact, of dark and of bright pixels */
-    double channels[3];  /* absolute differences */
     bool anything;       /* any pixel is not black */
     bool wrong[LAB_SCENE_KIND_COUNT];
 } Overview;
@@ -26,7 +25,6 @@ static void look_at(const LabPicture *picture, const Reference *exact, Overview 
             const double right = 255 * (double)exact->color[3 * i + c];
             mean += right / 3;
             apart += (drawn[4 * i + c] - right) / 3;
-            overview->channels[c] += fabs(drawn[4 * i + c] - right);
         }
         overview->pixels++;
         if (mean > 60) {
@@ -71,15 +69,6 @@ static void compare_sides(const Overview *overview, Verdict *verdict)
         verdict_add_symptom(verdict,
                             "The average brightness is right, but light and shade are in the "
                             "wrong places.");
-}
-
-static void compare_channels(const Overview *overview, Verdict *verdict)
-{
-    static const char *const NAMES[] = {"red", "green", "blue"};
-    const double *c = overview->channels, sum = c[0] + c[1] + c[2];
-    for (int i = 0; i < 3 && sum > 0; i++)
-        if (c[i] > 0.75 * sum)
-            verdict_add_symptom(verdict, "Most of the error is in the %s channel.", NAMES[i]);
 }
 
 /* The pixel with the largest error, in the worst scene. */
@@ -138,6 +127,5 @@ void symptoms_describe(const LabPictures *pictures, bool moved, Verdict *verdict
     if (!budget)
         name_scenes(&overview, verdict);
     compare_sides(&overview, verdict);
-    compare_channels(&overview, verdict);
     point_at_worst(pictures, verdict);
 }
