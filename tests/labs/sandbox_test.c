@@ -59,10 +59,6 @@ TEST_WITH(0, names_that_leave_a_folder_are_refused, start, NULL)
         assert_false(bundle_add(&bundle, bad[i], "x", 1, &message));
     }
     assert_true(bundle_name_is_safe("a/b..c/.d"));
-}
-
-TEST_WITH(0, a_name_is_added_once, start, NULL)
-{
     assert_true(bundle_add(&bundle, "a/empty.h", "", 0, &message));
     assert_false(bundle_add(&bundle, "a/empty.h", "", 0, &message));
 }

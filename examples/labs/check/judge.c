@@ -228,6 +228,8 @@ static const Blame
                "the fragment shader's precision: highp float"},
     OVERFLOW = {"mediump overflow", "It fails at large distances: their squares overflow 16 bits.",
                 "the fragment shader's precision: highp float"},
+    LOWP = {"lowp may have too few bits", "lowp has as few as 9 bits, for numbers from -2 to 2.",
+            "the fragment shader's precision: highp float"},
     SIZE = {"depends on the picture's size",
             "The picture is right at small sizes, and wrong at a larger one or at another place.",
             "the uses of gl_FragCoord"};
@@ -287,8 +289,8 @@ static bool explain_shaders(Session *session, Message *message)
         return false;
     if (verdict->mistake_count == 0 && !look_at_budget(session, false, &found, message))
         return false;
-    if (verdict->mistake_count == 0)
-        text_find_suspicion(session->lab, session->files, verdict);
+    if (verdict->mistake_count == 0 && text_has_word(session->files, "lowp"))
+        blame(verdict, "", LOWP);
     return true;
 }
 

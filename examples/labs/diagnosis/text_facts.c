@@ -4,7 +4,6 @@
 #include "base/memory.h"
 #include "base/text.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -57,20 +56,4 @@ bool text_has_word(const SubmissionFiles *files, const char *word)
         free(plain);
     }
     return found;
-}
-
-bool text_find_suspicion(const Lab *lab, const SubmissionFiles *files, Verdict *verdict)
-{
-    char name[64];
-    snprintf(name, sizeof name, "%s.frag", lab->file);
-    const char *fragment = submission_file(files, name);
-    char *plain = fragment ? plain_text(fragment) : NULL;
-    const bool found = plain && text_count_word(plain, "lowp") > 0;
-    free(plain);
-    if (!found)
-        return false;
-    verdict_add_mistake(verdict, "lowp", "lowp has as few as 9 bits, for numbers from -2 to 2.",
-                        "the fragment shader's precision: highp float", 0.9);
-    snprintf(verdict->message, sizeof verdict->message, "lowp: it may have too few bits");
-    return true;
 }

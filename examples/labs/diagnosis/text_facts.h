@@ -16,7 +16,4 @@ bool text_is_starter(const Lab *lab, const SubmissionFiles *files);
 /* Whether one of the files has the word, comments aside. */
 bool text_has_word(const SubmissionFiles *files, const char *word);
 
-/* Adds a mistake for what only may be the fault: lowp. False: none. */
-bool text_find_suspicion(const Lab *lab, const SubmissionFiles *files, Verdict *verdict);
-
 #endif

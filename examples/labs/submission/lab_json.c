@@ -366,23 +366,16 @@ static bool read_points(Reading *reading, const json_t *value)
                  "\"drawn\", \"scenes\" and \"parts\" together must not exceed \"most\""));
 }
 
-static bool read_solutions(Reading *reading, const json_t *list)
+static bool read_solution(Reading *reading, const char *name)
 {
-    Lab *lab = &reading->folder->lab;
-    const size_t count = json_array_size(list);
+    LabFolder *folder = reading->folder;
     char path[2 * PATH_MAX];
     Message why = {.text = ""};
-    if (!json_is_array(list) || count < 1 || count > LAB_MAX_SOLUTIONS)
-        return fail(reading, "solutions", "must be a list of one to four folders");
-    for (size_t i = 0; i < count; i++) {
-        const char *name = json_string_value(json_array_get(list, i));
-        if (!name || strchr(name, '/') || name[0] == '.')
-            return fail(reading, "solutions", "must name folders in the lab's own");
-        snprintf(path, sizeof path, "%s/%s", reading->folder->path, name);
-        if (!submission_files_open(&reading->folder->solutions[i], lab, path, &why))
-            return message_set(reading->message, "%s: %.500s", path, why.text);
-        lab->solution_count++;
-    }
+    snprintf(path, sizeof path, "%s/%s", folder->path, name);
+    if (!submission_files_open(&folder->solutions[folder->lab.solution_count], &folder->lab, path,
+                               &why))
+        return message_set(reading->message, "%s: %.500s", path, why.text);
+    folder->lab.solution_count++;
     return true;
 }
 
@@ -469,19 +462,23 @@ static bool check_parts(const Reading *reading)
 /* One in the folder "solution" needs no key. */
 static bool add_solutions(Reading *reading)
 {
-    LabFolder *folder = reading->folder;
+    const json_t *list = json_object_get(reading->folder->json, "solutions");
+    const size_t count = json_array_size(list);
     char path[2 * PATH_MAX];
     struct stat status;
-    snprintf(path, sizeof path, "%s/solution", folder->path);
-    if (json_object_get(folder->json, "solutions"))
-        return read_solutions(reading, json_object_get(folder->json, "solutions"));
-    if (stat(path, &status) != 0)
-        return true;
-    json_t *list = json_array();
-    json_array_append_new(list, json_string("solution"));
-    const bool done = read_solutions(reading, list);
-    json_decref(list);
-    return done;
+    snprintf(path, sizeof path, "%s/solution", reading->folder->path);
+    if (!list)
+        return stat(path, &status) != 0 || read_solution(reading, "solution");
+    if (count < 1 || count > LAB_MAX_SOLUTIONS)
+        return fail(reading, "solutions", "must be a list of one to four folders");
+    for (size_t i = 0; i < count; i++) {
+        const char *name = json_string_value(json_array_get(list, i));
+        if (!name || strchr(name, '/') || name[0] == '.')
+            return fail(reading, "solutions", "must name folders in the lab's own");
+        if (!read_solution(reading, name))
+            return false;
+    }
+    return true;
 }
 
 bool lab_json_read(LabFolder *folder, Message *message)
