@@ -39,7 +39,8 @@ def lab(path):
     with open(path) as file:
         of = json.load(file)
     name = os.path.basename(os.path.dirname(os.path.abspath(path)))
-    values = {"name": put(name), "file": put(name.split("_")[0]), "lights": str(len(of["scene"]["lights"]))}
+    values = {"name": put(name), "file": put(name.split("_")[0]), "lights": str(len(of["scene"]["lights"])),
+              "points": "LAB_POINTS"}
     for key, value in of.items():
         if key == "light":
             values[key] = KINDS[value]

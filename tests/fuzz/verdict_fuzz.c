@@ -44,7 +44,7 @@ FUZZ(data, size)
         require(message.text[0]);
         return 0;
     }
-    require(verdict.points >= 0 && verdict.points <= verdict_most(&verdict) &&
+    require(verdict.points >= 0 && verdict.points <= verdict.most &&
             verdict.kind <= VERDICT_TIMEOUT && verdict.mistake_count <= VERDICT_MAX_MISTAKES &&
             verdict.symptom_count <= VERDICT_MAX_SYMPTOMS &&
             verdict.probe_count <= VERDICT_MAX_PROBES && !strchr(verdict.picture, '/') &&

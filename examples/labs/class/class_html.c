@@ -88,7 +88,7 @@ static void set_scenes(TemplateValues *page, const Verdict *verdict)
 static void set_verdict(TemplateValues *values, const Verdict *verdict)
 {
     template_set(values, "points", "%g", verdict->points);
-    template_set(values, "most", "%g", verdict_most(verdict));
+    template_set(values, "most", "%g", verdict->most);
     template_set(values, "verdict", "%s", VERDICT_NAMES[verdict->kind]);
     template_set(values, "picture", "%s", verdict->picture);
 }
@@ -138,9 +138,9 @@ static double median(const ClassStore *store)
 
 static double most_of(const ClassStore *store)
 {
-    double most = VERDICT_MAX_POINTS;
+    double most = 1;
     for (int i = 0; i < store->count; i++)
-        most = fmax(i ? most : 0, verdict_most(&store->results[i].verdict));
+        most = fmax(most, store->results[i].verdict.most);
     return most;
 }
 

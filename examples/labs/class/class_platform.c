@@ -131,7 +131,7 @@ static bool write_grades(const ClassStore *store, bool canvas, Message *message)
 {
     OutputText out;
     output_text_open(&out);
-    const double most = store->count ? verdict_most(&store->results[0].verdict) : 0;
+    const double most = store->count ? store->results[0].verdict.most : 0;
     if (canvas)
         fprintf(out.file,
                 "Student,ID,SIS User ID,SIS Login ID,Section,%s\r\n    Points Possible,,,,,%g\r\n",

@@ -66,8 +66,7 @@ static void put_row(FILE *file, const ClassResult *result, bool parts)
     class_table_csv_field(file, result->id);
     fprintf(file, ",%d,", result->attempt);
     class_table_csv_field(file, result->lab);
-    fprintf(file, ",%g,%g,%s,", verdict->points, verdict_most(verdict),
-            VERDICT_NAMES[verdict->kind]);
+    fprintf(file, ",%g,%g,%s,", verdict->points, verdict->most, VERDICT_NAMES[verdict->kind]);
     class_mistake_names(verdict, names);
     class_table_csv_field(file, names);
     fputc(',', file);
@@ -159,7 +158,7 @@ static void add_case(TemplateValues *suite, const ClassResult *result)
     template_set(fault, "element", "%s", verdict->kind == VERDICT_WRONG ? "failure" : "error");
     template_set(fault, "verdict", "%s", VERDICT_NAMES[verdict->kind]);
     template_set(fault, "points", "%g", verdict->points);
-    template_set(fault, "most", "%g", verdict_most(verdict));
+    template_set(fault, "most", "%g", verdict->most);
     template_set(fault, "message", "%s", verdict->message);
     template_set(fault, "text", "%s", text);
     free(text);

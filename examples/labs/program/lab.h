@@ -70,7 +70,7 @@ typedef struct LabAttributes {
 /* Of a lab: of a right submission; of a wrong one that draws, for all scenes right, and for each
  * part that is right: of the light, or a variable of the first solution. */
 typedef struct LabPoints {
-    double most, drawn, scenes, step; /* rounded down to a multiple of `step`; 0: 0.5 */
+    double most, drawn, scenes, step; /* rounded down to a multiple of `step` */
     struct {
         const char *name;
         double points;
@@ -80,6 +80,12 @@ typedef struct LabPoints {
     double percent[LAB_MAX_DAYS]; /* of `most`, taken for so many days, the last for all more */
     int day_count;
 } LabPoints;
+
+/* Where lab.json does not say. */
+#define LAB_POINTS                                                                                 \
+    {                                                                                              \
+        .most = 10, .drawn = 1, .scenes = 8, .step = 0.5                                           \
+    }
 
 typedef struct Lab {
     int number;          /* 1 to LAB_COUNT, or any */
@@ -109,8 +115,8 @@ typedef struct Lab {
     const struct SubmissionFiles *solutions; /* what they draw is right; none: the exact picture */
     int solution_count;
     double tolerance; /* in steps of 1/255; 0: as in other labs */
-    LabPoints points; /* zeroed: 10, 1, 8 */
-    uint64_t hash;    /* of its files */
+    LabPoints points;
+    uint64_t hash; /* of its files */
 } Lab;
 
 extern const Lab LABS[LAB_COUNT];

@@ -31,7 +31,8 @@ static bool name_lab(LabFolder *folder, const char *path, Message *message)
                         .file = folder->file,
                         .folder = folder->path,
                         .uniforms = folder->uniforms,
-                        .solutions = folder->solutions};
+                        .solutions = folder->solutions,
+                        .points = LAB_POINTS};
     return true;
 }
 

@@ -353,7 +353,8 @@ static bool read_points(Reading *reading, const json_t *value)
         {"late", KEY_READ, .read = read_late},
         {.name = NULL},
     };
-    const LabPoints *points = &reading->folder->lab.points;
+    LabPoints *points = &reading->folder->lab.points;
+    *points = (LabPoints){.step = 0.5};
     if (!read_object(reading, "points", value, keys))
         return false;
     double sum = points->drawn + points->scenes;

@@ -57,31 +57,24 @@ static int passed(const Verdict *verdict)
 
 static double in_steps(const LabPoints *points, double sum)
 {
-    const double step = points->step > 0 ? points->step : 0.5;
-    return floor(sum / step + 1e-9) * step;
+    return floor(sum / points->step + 1e-9) * points->step;
 }
 
 void verdict_score(Verdict *verdict, const Lab *lab)
 {
-    const LabPoints usual = {.most = VERDICT_MAX_POINTS, .drawn = 1, .scenes = 8};
-    const LabPoints *points = lab->points.most > 0 ? &lab->points : &usual;
-    double sum = 0;
+    const LabPoints *points = &lab->points;
+    double sum = points->scenes * passed(verdict) / fmax(verdict->probe_count, 1);
     for (int i = 0; i < verdict->part_count; i++) {
         VerdictPart *part = &verdict->parts[i];
         part->state = verdict->kind == VERDICT_RIGHT ? PART_RIGHT : part->state;
         part->points = part->state == PART_RIGHT ? part->most : 0;
         sum += part->points;
     }
-    verdict->points = 0;
-    verdict->most = points->most;
-    if (verdict->kind == VERDICT_RIGHT)
-        verdict->points = points->most;
-    else if (verdict->kind == VERDICT_WRONG && verdict->probe_count > 0)
-        verdict->points =
-            points->drawn +
-            (verdict->undefined
-                 ? 0
-                 : in_steps(points, sum + points->scenes * passed(verdict) / verdict->probe_count));
+    const bool draws = verdict->kind == VERDICT_WRONG && verdict->probe_count > 0;
+    verdict->points = verdict->kind == VERDICT_RIGHT ? points->most
+                      : !draws                       ? 0
+                      : verdict->undefined           ? points->drawn
+                                                     : points->drawn + in_steps(points, sum);
 }
 
 void verdict_late(Verdict *verdict, const Lab *lab, int days)
@@ -143,7 +136,7 @@ void verdict_print(const Verdict *verdict, const Lab *lab, const char *pictures,
     const int terminal = fileno(file); /* -1: a file in memory */
     fprintf(file, "%s: %s%s%s, %g of %g points\n%s\n", lab->name, message_color(color, terminal),
             VERDICT_NAMES[verdict->kind], message_color(MESSAGE_PLAIN, terminal), verdict->points,
-            verdict_most(verdict), verdict->message);
+            verdict->most, verdict->message);
     if (verdict->details[0])
         fprintf(file, "%s\n", verdict->details);
     print_mistakes(verdict, file);

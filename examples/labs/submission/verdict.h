@@ -25,8 +25,7 @@ extern const char *const VERDICT_NAMES[];
 extern const char *const PART_NAMES[]; /* "not judged", "right", "wrong", "late" */
 
 enum {
-    VERDICT_MAX_POINTS = 10,   /* of the labs that come with the programs */
-    VERDICT_POINTS_END = 1000, /* of any */
+    VERDICT_POINTS_END = 1000,
     VERDICT_MAX_MISTAKES = 6,
     VERDICT_MAX_SYMPTOMS = 8,
     VERDICT_MAX_PROBES = 16,
@@ -72,7 +71,7 @@ typedef struct VerdictCost {
 typedef struct Verdict {
     VerdictKind kind;
     uint64_t seed;
-    double points, most; /* `most` 0: as verdict_most has it */
+    double points, most;
     VerdictPart parts[LAB_MAX_PARTS + 1];
     int part_count;
     char message[VERDICT_SENTENCE_SIZE]; /* one sentence */
@@ -101,15 +100,8 @@ void verdict_begin(Verdict *verdict, const Lab *lab, uint64_t seed);
 /* The verdict on a submission whose files cannot be judged. */
 void verdict_refuse(Verdict *verdict, const Lab *lab, uint64_t seed, const Message *why);
 
-/* How many points there are. */
-static inline double verdict_most(const Verdict *verdict)
-{
-    return verdict->most > 0 ? verdict->most : VERDICT_MAX_POINTS;
-}
-
-/* Sets the points, unless the lab has its own: 10 if right; otherwise 1 for compiling and drawing,
- * and up to 8 for the share of scenes passed, in halves; and those of the parts that are right. Lab
- * 10: see budget_score. */
+/* Sets the points: all if right; otherwise those for compiling and drawing, for the share of scenes
+ * passed, and for the parts that are right. Lab 10: see budget_score. */
 void verdict_score(Verdict *verdict, const Lab *lab);
 
 /* Takes what the lab's rule takes for so many days. */

@@ -136,7 +136,7 @@ void verdict_put(JsonWriter *json, const Verdict *verdict, const char *lab)
     snprintf(seed, sizeof seed, "%llu", (unsigned long long)verdict->seed);
     json_write_text(json, "lab", lab);
     json_write_value(json, "seed", seed);
-    json_write_number(json, "most", verdict_most(verdict));
+    json_write_number(json, "most", verdict->most);
     put_fields(json, VERDICT_FIELDS, verdict);
     json_write_list(json, "pictures");
     if (verdict->picture[0])
