@@ -54,7 +54,7 @@ static void try(Trial *trial, const Mutation *mutation, const char *text)
     verdict = (Verdict){.seed = 1};
     for (int i = 0; i < 2; i++)
         add_file(&files, trial->lab, i, i == trial->stage ? text : trial->texts[i]);
-    if (!diagnose(&trial->pictures, &files, &verdict, NULL, &message))
+    if (!diagnose(&trial->pictures, NULL, &files, &verdict, NULL, &message))
         fail_msg("%s", message.text);
     submission_files_close(&files);
     if (strcmp(verdict.message, "Unknown mistake") ==

@@ -240,20 +240,6 @@ static void blame(Verdict *verdict, const char *before, Blame what)
     snprintf(verdict->message, sizeof verdict->message, "%s%s", before, what.name);
 }
 
-/* Lab 10: whether its mesh is right with these shaders. They are closed. */
-static bool is_right_with(Session *session, Shader *shader, bool *right, Message *message)
-{
-    const Painter painter = {.lab = session->lab, .program = shader->program};
-    LabPictures *pictures = &session->pictures;
-    const bool done = lab_pictures_draw(pictures, &painter, &session->canvas, message);
-    *right = done;
-    for (int i = 0; i < pictures->count && *right; i++)
-        *right = lab_pictures_error(pictures, i, pictures->truth).maximum <=
-                 lab_pictures_tolerance(pictures, i);
-    shader_close(shader);
-    return done;
-}
-
 /* Lab 10: a mesh that is too coarse for right shaders, too, or mediump. *found: it is that. */
 static bool look_at_budget(Session *session, bool of_mesh, bool *found, Message *message)
 {
@@ -268,14 +254,14 @@ static bool look_at_budget(Session *session, bool of_mesh, bool *found, Message 
     if (of_mesh ? !shader_open(&shader, &loader, name, message)
                 : !submission_compile(&shader, session->lab, session->files, "highp", NULL))
         return !of_mesh;
-    if (!is_right_with(session, &shader, &right, message))
-        return false;
-    *found = right != of_mesh;
+    const Painter painter = {.lab = session->lab, .program = shader.program};
+    const bool done =
+        lab_pictures_is_right(&session->pictures, &painter, &session->canvas, &right, message);
+    shader_close(&shader);
+    *found = done && right != of_mesh;
     if (*found)
         blame(session->verdict, "", of_mesh ? MESH : MEDIUMP);
-    /* As it was. */
-    const Painter painter = {.lab = session->lab, .program = session->shader.program};
-    return lab_pictures_draw(&session->pictures, &painter, &session->canvas, message);
+    return done;
 }
 
 /* By its shaders, unless, lab 10, they cannot be right with its mesh. */
@@ -285,7 +271,8 @@ static bool explain_shaders(Session *session, Message *message)
     bool found;
     if (!look_at_budget(session, true, &found, message))
         return false;
-    if (!found && !diagnose(&session->pictures, session->files, verdict, &session->first, message))
+    if (!found && !diagnose(&session->pictures, &session->canvas, session->files, verdict,
+                            &session->first, message))
         return false;
     if (verdict->mistake_count == 0 && !look_at_budget(session, false, &found, message))
         return false;

@@ -200,6 +200,10 @@ Derivation *derivation_open(const LabPictures *pictures, const SubmissionFiles *
 {
     Derivation *all = memory_new(1, sizeof *all);
     all->lab = pictures->lab;
+    all->pictures = pictures;
+    /* Half a step is for rounding. A shadow is all or nothing. */
+    all->tolerance = pictures->lab->shadow ? DERIVATION_EQUAL
+                                           : (lab_pictures_tolerance(pictures, 0) - 0.5) / 255;
     if (!points_open(&all->points, pictures, message) || !open_own(all, files)) {
         derivation_close(all);
         return NULL;

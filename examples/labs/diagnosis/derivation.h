@@ -32,6 +32,10 @@ typedef struct Found {
 
 typedef struct Derivation {
     const Lab *lab;
+    const LabPictures *pictures;
+    Canvas *canvas;   /* what mends is drawn on it; NULL: it is not */
+    double tolerance; /* of what is right, at points */
+    int drawn;        /* how many changes were */
     Points points;
     PointShader own[2], right[2]; /* by GlslStage */
     ShaderSource sources[2];      /* the submission's */
@@ -54,7 +58,7 @@ typedef struct Derivation {
     Found best;          /* of those that compute the same; its text is NULL: none does */
     bool unique;         /* no other has as many of the submission's values */
     Found mending;       /* the change of the submission that makes it right, if `mended` */
-    bool mended, mended_there;
+    bool mended, mended_there; /* `mended`: within the tolerance */
     Found second; /* of two changes, if `two_found`: of the submission, or of a right program */
     bool two_found, mended_twice;
     int place_node; /* of the submission, in place_stage: the first wrong value; 0: not known */
@@ -89,9 +93,9 @@ typedef enum LitAt { LIT_NEAREST, LIT_AT_VERTICES, LIT_AT_POINTS } LitAt;
 /* Makes it the right program that is nearest to the submission, and runs it. */
 void right_run(Derivation *all, LitAt lit);
 
-/* Runs all right programs: with light at the vertices or not, and with each number that a task
- * leaves open. */
-void right_run_all(Derivation *all);
+/* Opens and runs all right programs: with light at the vertices or not, and with each number that a
+ * task leaves open. False: there is none. */
+bool right_run_all(Derivation *all);
 
 /* The declarations of the interface's uniforms that a text lacks, but a change of it may use; a
  * text with them. For free(). */
@@ -107,15 +111,19 @@ bool derive_mistake(Derivation *all, Verdict *verdict);
  * submission is farthest from it, and `wrong_by` says how far. */
 bool derive_use_right(Derivation *all, const char *ending, LitAt lit);
 
-/* Finds the one change of the submission, if any, that makes it right. */
+/* Finds the one change of the submission, if any, that makes it right. True: to the last digit. */
 bool mend_find(Derivation *all);
 
 /* Opens the stage's mutant: of the submission (`own`), with what it does not declare, or of the
  * right program. */
 bool mend_open(const Derivation *all, const char *text, bool own, PointShader *shader);
 
-/* Whether the pair is right at all points. */
-bool mend_is_right(Derivation *all, PointShader *const pair[2]);
+/* How far the pair is from the right program that it is nearest to; above `most`: far. */
+double mend_apart(Derivation *all, PointShader *const pair[2], double most);
+
+/* Whether the submission with these texts, NULL: its own, is right in the submission's scenes, by
+ * the lab's own verdict. */
+bool mend_passes(Derivation *all, const char *const texts[2]);
 
 /* Finds how many of the submission's values a mutant of the right program has on its way, and how
  * alike the texts are. */

@@ -287,7 +287,8 @@ static void say_mending(Derivation *all, const Found *found, Verdict *verdict)
     snprintf(look, VERDICT_SENTENCE_SIZE, "%.250s; all is right with %s%s", place,
              mending->by[0] ? mending->by : "nothing there",
              all->mended_twice ? " and the other change" : "");
-    const double sure = all->mended_twice && !all->unique ? ONE_OF_SEVERAL : UNIQUE;
+    const bool sole = all->mended_twice ? all->unique : all->mending.apart <= EQUAL;
+    const double sure = sole ? UNIQUE : ONE_OF_SEVERAL;
     if (best->text && best->mutation.general && all->unique) {
         add(best->mutation.name, &best->mutation, look, UNIQUE, verdict);
         return;
@@ -386,17 +387,22 @@ static bool search_two(Derivation *all)
 static bool explain(Derivation *all, Verdict *verdict)
 {
     take_own_numbers(all);
-    if (!derive_use_right(all, "", LIT_NEAREST) || all->wrong_by <= 4 * EQUAL)
+    if (!right_run_all(all) || !derive_use_right(all, "", LIT_NEAREST) ||
+        all->wrong_by <= 4 * EQUAL)
         return false;
-    right_run_all(all);
     take_right_numbers(all);
     /* No shadow, or nothing else: that many changes do says nothing. */
     const bool blind = derivation_wastes_map(all);
     if (!blind && search(all))
         find_place(all, &all->best);
-    if (mend_find(all) || all->best.text ||
-        (derive_use_right(all, "_apart", LIT_NEAREST) && at_vertices_explain(all, verdict)) ||
-        (derive_use_right(all, "", LIT_NEAREST) && at_vertices_explain(all, verdict)))
+    const bool exact = mend_find(all);
+    if (exact || all->best.text) {
+        all->mended = exact;
+        return true;
+    }
+    if ((derive_use_right(all, "_apart", LIT_NEAREST) && at_vertices_explain(all, verdict)) ||
+        (derive_use_right(all, "", LIT_NEAREST) && at_vertices_explain(all, verdict)) ||
+        all->mended)
         return true;
     /* Of lab 10's sphere normals and places are the same, so that two changes explain too much. */
     return !all->lab->budget && (two_find(all, true) || (!blind && search_two(all)));

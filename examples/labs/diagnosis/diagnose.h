@@ -42,9 +42,10 @@ typedef struct FirstWrong {
 } FirstWrong;
 
 /* Fills in the message and mistakes of a wrong submission that has shaders, and of one without a
- * name the part that is wrong. False, with a message: the driver failed. */
-bool diagnose(const LabPictures *pictures, const SubmissionFiles *files, Verdict *verdict,
-              FirstWrong *first, Message *message);
+ * name the part that is wrong. What is said to mend it is drawn on the canvas; NULL: it is not.
+ * False, with a message: the driver failed. */
+bool diagnose(const LabPictures *pictures, Canvas *canvas, const SubmissionFiles *files,
+              Verdict *verdict, FirstWrong *first, Message *message);
 
 /* Lists the values of a lab's solution that no scene tells from ones that are computed at the
  * vertices and interpolated. */

@@ -4,6 +4,8 @@
  */
 #include "labs/diagnosis/derivation.h"
 
+#include "labs/diagnosis/diagnose.h"
+
 #include "base/memory.h"
 
 #include <math.h>
@@ -11,19 +13,52 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* In `right` a bit for each right program that it may still be. */
-bool mend_is_right(Derivation *all, PointShader *const pair[2])
+double mend_apart(Derivation *all, PointShader *const pair[2], double most)
 {
-    unsigned right = (1u << all->right_count) - 1;
-    for (int i = 0; i < all->points.count && right; i++) {
+    double worst[MAX_RIGHTS] = {0}, least = 0;
+    for (int i = 0; i < all->points.count && least <= most; i++) {
         const int point = all->order[i];
         double numbers[POINT_NUMBERS];
         points_run(&all->points, pair[0], pair[1], point, numbers);
+        least = INFINITY;
         for (int k = 0; k < all->right_count; k++) {
-            const bool same = points_apart(numbers, all->rights[k][point]) <= DERIVATION_EQUAL;
-            right &= same ? ~0u : ~(1u << k);
+            worst[k] = fmax(worst[k], points_apart(numbers, all->rights[k][point]));
+            least = fmin(least, worst[k]);
         }
     }
+    return least;
+}
+
+bool mend_passes(Derivation *all, const char *const texts[2])
+{
+    enum { MOST_DRAWN = 60 };
+    char names[2][64], *whole[2];
+    bool right = false, moved = false;
+    Shader shader = {0};
+    Message message;
+    if (!all->canvas)
+        return true;
+    if (++all->drawn > MOST_DRAWN)
+        return false;
+    ShaderText files[3] = {{NULL}};
+    for (int i = 0; i < 2; i++) {
+        snprintf(names[i], sizeof names[i], "%s.%s", all->lab->file, i == 0 ? "vert" : "frag");
+        whole[i] = right_declare(texts[i] ? all->undeclared[i] : "",
+                                 texts[i] ? texts[i] : all->sources[i].text);
+        files[i] = (ShaderText){names[i], strchr(whole[i], '\n') + 1}; /* has its own version */
+    }
+    const ShaderLoader loader = {.texts = files, .only_texts = true, .precision = "highp"};
+    if (shader_open(&shader, &loader, all->lab->file, &message)) {
+        const Painter painter = {.lab = all->lab, .program = shader.program};
+        right = lab_pictures_is_right(all->pictures, &painter, all->canvas, &right, &message) &&
+                right && /* a lab of one's own may move vertices */
+                (all->lab->solution_count ||
+                 outline_check(all->pictures, &painter, all->canvas, &moved, &message)) &&
+                !moved;
+        shader_close(&shader);
+    }
+    free(whole[0]);
+    free(whole[1]);
     return right;
 }
 
@@ -42,14 +77,16 @@ static bool is_there(const Derivation *all, const Found *found)
            holds(all->own[found->stage].tree, all->place_node, found->mutation.node);
 }
 
-/* Below 0: a is the better change: where the first wrong value is; of the likelier rule; the
- * earlier one; the smaller one. */
+/* Below 0: a is the better change: right to the last digit; where the first wrong value is; of the
+ * likelier rule; the earlier one; the smaller one. */
 static int compare(const Derivation *all, const Found *a, const Found *b)
 {
     const GlslPlace *place = &all->own[a->stage].tree->nodes[a->mutation.node].place;
     const GlslPlace *other = &all->own[b->stage].tree->nodes[b->mutation.node].place;
     const bool there = is_there(all, a), other_there = is_there(all, b);
-    return there != other_there                   ? (int)other_there - (int)there
+    const bool exact = a->apart <= DERIVATION_EQUAL, other_exact = b->apart <= DERIVATION_EQUAL;
+    return exact != other_exact                   ? (int)other_exact - (int)exact
+           : there != other_there                 ? (int)other_there - (int)there
            : a->mutation.rank != b->mutation.rank ? a->mutation.rank - b->mutation.rank
            : a->stage != b->stage                 ? (int)a->stage - (int)b->stage
            : place->line != other->line
@@ -76,7 +113,11 @@ static bool try_change(void *context, const Mutation *mutation, const char *text
     if (!mend_open(all, text, true, &shader))
         return true;
     pair[all->stage] = &shader;
-    if (mend_is_right(all, pair)) {
+    found.apart = mend_apart(all, pair, all->tolerance);
+    const char *texts[2] = {NULL};
+    texts[all->stage] = text;
+    if (found.apart <= all->tolerance &&
+        (!all->mended || compare(all, &found, &all->mending) < 0) && mend_passes(all, texts)) {
         all->mending = found;
         all->mended = true;
     }
@@ -93,5 +134,5 @@ bool mend_find(Derivation *all)
                        try_change, all);
     }
     all->mended_there = all->mended && is_there(all, &all->mending);
-    return all->mended;
+    return all->mended && all->mending.apart <= DERIVATION_EQUAL;
 }

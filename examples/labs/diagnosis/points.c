@@ -170,7 +170,7 @@ static bool add_scene(Points *points, const LabScene *lab_scene, const Mesh *mes
     return done;
 }
 
-/* Where highlights are near the line of sight. */
+/* Another than those of the submission's seed: what is said does not depend on that. */
 static bool add_further(Points *points, LabSceneKind kind, const Mesh *mesh, LabShadowMap *map,
                         Message *message)
 {
@@ -188,8 +188,12 @@ bool points_open(Points *points, const LabPictures *pictures, Message *message)
     LabShadowMap map = {0};
     bool done = true;
     *points = (Points){.lab = pictures->lab};
-    for (int i = 0; i < pictures->count && done; i++)
-        done = add_scene(points, &pictures->items[i].lab_scene, mesh, &map, message);
+    for (int i = 0; i < pictures->count && done; i++) {
+        const LabScene *lab_scene = &pictures->items[i].lab_scene;
+        done = lab_scene->known ? add_scene(points, lab_scene, mesh, &map, message)
+                                : add_further(points, lab_scene->kind, mesh, &map, message);
+    }
+    /* Where highlights are near the line of sight. */
     done = done && add_further(points, LAB_SCENE_ALONG, mesh, &map, message) &&
            add_further(points, LAB_SCENE_AGAINST, mesh, &map, message);
     lab_shadow_map_close(&map);

@@ -108,12 +108,16 @@ double derivation_run(Derivation *all, PointShader pair[2], Numbers numbers, Num
     return sum;
 }
 
-/* Numbers that a right program may choose: what a task leaves open. */
-static bool is_free(const Lab *lab, const char *was, double number)
+/* Numbers that a right program may choose: what a task leaves open. A name is none. */
+static bool is_free(const Lab *lab, const Mutation *mutation, double *number)
 {
-    return (lab->fitted && strcmp(was, "1.3") == 0 &&
-            (number == 0 || (number > 0.5 && number < 2))) ||
-           (lab->shadow && strcmp(was, "0.002") == 0 && number > 0.0004 && number < 0.0065);
+    const char *was = mutation->was, *by = mutation->by + (mutation->by[0] == '(');
+    char *end;
+    *number = strtod(by, &end);
+    return end > by && (!*end || *end == ')') &&
+           ((lab->fitted && strcmp(was, "1.3") == 0 &&
+             (*number == 0 || (*number > 0.5 && *number < 2))) ||
+            (lab->shadow && strcmp(was, "0.002") == 0 && *number > 0.0004 && *number < 0.0065));
 }
 
 /* Whether the text adds or subtracts the number. */
@@ -143,8 +147,8 @@ static bool try_right(void *context, const Mutation *mutation, const char *text)
 {
     Derivation *all = context;
     PointShader pair[2] = {all->right[0], {.setting = -1}};
-    const double number = atof(mutation->by + (mutation->by[0] == '('));
-    if (!is_free(all->lab, mutation->was, number) || expected(all, number) == 0 ||
+    double number;
+    if (!is_free(all->lab, mutation, &number) || expected(all, number) == 0 ||
         !point_shader_open(&pair[1], text, GLSL_FRAGMENT))
         return true;
     const double apart = derivation_run(all, pair, all->exact, all->wanted) - expected(all, number);
@@ -180,23 +184,25 @@ static bool add_free(void *context, const Mutation *mutation, const char *text)
 {
     Derivation *all = context;
     PointShader pair[2] = {all->right[0], {.setting = -1}};
-    const double number = atof(mutation->by + (mutation->by[0] == '('));
-    if (is_free(all->lab, mutation->was, number) &&
-        point_shader_open(&pair[1], text, GLSL_FRAGMENT)) {
+    double number;
+    if (is_free(all->lab, mutation, &number) && point_shader_open(&pair[1], text, GLSL_FRAGMENT)) {
         add_right(all, pair);
         point_shader_close(&pair[1]);
     }
     return true;
 }
 
-void right_run_all(Derivation *all)
+bool right_run_all(Derivation *all)
 {
+    if (!right_open(all, ""))
+        return false;
     for (int at_once = 0; at_once <= (int)all->lab->either; at_once++) {
         light_at_once(all, at_once);
         add_right(all, all->right);
     }
     if (all->lab->fitted || all->lab->shadow)
         mutations_each(all->right[1].tree, all->numbers, all->number_count, add_free, all);
+    return true;
 }
 
 void right_run(Derivation *all, LitAt lit)

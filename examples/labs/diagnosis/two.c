@@ -218,6 +218,11 @@ static void take_pair(Search *search, const Mutation *second, int rank, const ch
         derive_compare_values(all, &found);
     const bool better = !all->two_found || found.shared > all->second.shared ||
                         (found.shared == all->second.shared && rank < search->best_rank);
+    const char *texts[2] = {NULL};
+    texts[step->stage] = step->text;
+    texts[all->stage] = text;
+    if (better && search->mends && !mend_passes(all, texts))
+        return;
     if (!better) {
         all->unique &= found.shared < all->second.shared || rank > search->best_rank ||
                        is_found(search, second);
@@ -250,7 +255,8 @@ static bool try_second(void *context, const Mutation *mutation, const char *text
         return true;
     pair[first->stage] = search->opened;
     pair[all->stage] = &shader;
-    if (search->mends ? mend_is_right(all, pair) : derive_is_same(all, pair))
+    if (search->mends ? mend_apart(all, pair, DERIVATION_EQUAL) <= DERIVATION_EQUAL
+                      : derive_is_same(all, pair))
         take_pair(search, mutation, rank, text);
     point_shader_close(&shader);
     return search->pairs < (search->any ? MOST_ANY : MOST_PAIRS);
@@ -302,6 +308,7 @@ bool two_find(Derivation *all, bool mends)
                        .goal = mends ? all->right : all->own,
                        .numbers = mends ? all->right_numbers : all->numbers,
                        .number_count = mends ? all->right_number_count : all->number_count};
+    all->drawn = 0;
     begin(search);
     for (int stage = GLSL_VERTEX; stage <= GLSL_FRAGMENT; stage++)
         mutate_all(search, (GlslStage)stage, try_first);

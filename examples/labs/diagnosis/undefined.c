@@ -197,12 +197,14 @@ static bool explain(Derivation *all, Verdict *verdict)
     return zero;
 }
 
-bool diagnose(const LabPictures *pictures, const SubmissionFiles *files, Verdict *verdict,
-              FirstWrong *first, Message *message)
+bool diagnose(const LabPictures *pictures, Canvas *canvas, const SubmissionFiles *files,
+              Verdict *verdict, FirstWrong *first, Message *message)
 {
     Derivation *all = derivation_open(pictures, files, message);
     if (!all && message->text[0])
         return false;
+    if (all)
+        all->canvas = canvas;
     if (all && !explain(all, verdict))
         wrong_part_describe(all, verdict);
     if (all && all->mended && first)

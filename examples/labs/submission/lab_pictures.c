@@ -165,6 +165,17 @@ SubmissionGeometry lab_pictures_geometry(const LabPictures *pictures, int i)
     return geometry;
 }
 
+static ErrorSum error_of(const LabPicture *picture, int truth)
+{
+    return compare_exact(&picture->image, &picture->truths[truth],
+                         picture->mask.color ? &picture->mask : NULL);
+}
+
+ErrorSum lab_pictures_error(const LabPictures *pictures, int i, int truth)
+{
+    return error_of(&pictures->items[i], truth);
+}
+
 /* The least sum of squares over all scenes. */
 static void choose_truth(LabPictures *pictures)
 {
@@ -192,6 +203,27 @@ bool lab_pictures_draw(LabPictures *pictures, const Painter *painter, Canvas *ca
     }
     choose_truth(pictures);
     return true;
+}
+
+bool lab_pictures_is_right(const LabPictures *pictures, const Painter *painter, Canvas *canvas,
+                           bool *right, Message *message)
+{
+    const int all = (1 << pictures->truth_count) - 1;
+    int wrong = 0; /* a bit for each truth */
+    bool done = true;
+    for (int i = 0; i < pictures->count && done && wrong != all; i++) {
+        LabPicture drawn = pictures->items[i];
+        const SubmissionGeometry geometry = lab_pictures_geometry(pictures, i);
+        done =
+            image_open(&drawn.image, drawn.image.width, drawn.image.height, IMAGE_BYTE, message) &&
+            painter_draw(painter, &drawn.lab_scene, &geometry, canvas, &drawn.image, message);
+        for (int k = 0; k < pictures->truth_count && done; k++)
+            if (error_of(&drawn, k).maximum > lab_pictures_tolerance(pictures, i))
+                wrong |= 1 << k;
+        image_close(&drawn.image);
+    }
+    *right = done && wrong != all;
+    return done;
 }
 
 bool lab_pictures_draw_own(LabPictures *pictures, const Painter *painter, Canvas *canvas,
@@ -249,13 +281,6 @@ bool lab_pictures_use_sphere(LabPictures *pictures, int slices, int stacks, Mess
             return false;
     }
     return true;
-}
-
-ErrorSum lab_pictures_error(const LabPictures *pictures, int i, int truth)
-{
-    const LabPicture *picture = &pictures->items[i];
-    return compare_exact(&picture->image, &picture->truths[truth],
-                         picture->mask.color ? &picture->mask : NULL);
 }
 
 /* A size and a place in a larger picture. */

@@ -96,6 +96,10 @@ Scene lab_pictures_truth_scene(const Lab *lab, const LabScene *lab_scene, int tr
  * lab_pictures_draw_huge more than 11 significant bits can make. */
 double lab_pictures_tolerance(const LabPictures *pictures, int i);
 
+/* Whether another program would be right in all scenes. What is drawn there stays. */
+bool lab_pictures_is_right(const LabPictures *pictures, const Painter *painter, Canvas *canvas,
+                           bool *right, Message *message);
+
 /* Scene i's error against a truth. */
 ErrorSum lab_pictures_error(const LabPictures *pictures, int i, int truth);
 
