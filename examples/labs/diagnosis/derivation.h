@@ -125,6 +125,9 @@ double mend_apart(Derivation *all, PointShader *const pair[2], double most);
  * the lab's own verdict. */
 bool mend_passes(Derivation *all, const char *const texts[2]);
 
+/* Whether a node is another, or below it. */
+bool mend_holds(const GlslTree *tree, int node, int wanted);
+
 /* Finds how many of the submission's values a mutant of the right program has on its way, and how
  * alike the texts are. */
 void derive_compare_values(Derivation *all, Found *found);

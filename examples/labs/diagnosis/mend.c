@@ -62,11 +62,11 @@ bool mend_passes(Derivation *all, const char *const texts[2])
     return right;
 }
 
-static bool holds(const GlslTree *tree, int node, int wanted)
+bool mend_holds(const GlslTree *tree, int node, int wanted)
 {
     bool found = node == wanted;
     for (int i = tree->nodes[node].first; i && !found; i = tree->nodes[i].next)
-        found = holds(tree, i, wanted);
+        found = mend_holds(tree, i, wanted);
     return found;
 }
 
@@ -74,7 +74,7 @@ static bool holds(const GlslTree *tree, int node, int wanted)
 static bool is_there(const Derivation *all, const Found *found)
 {
     return all->place_node > 0 && found->stage == all->place_stage &&
-           holds(all->own[found->stage].tree, all->place_node, found->mutation.node);
+           mend_holds(all->own[found->stage].tree, all->place_node, found->mutation.node);
 }
 
 /* Below 0: a is the better change: right to the last digit; where the first wrong value is; of the

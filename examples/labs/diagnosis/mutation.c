@@ -5,6 +5,7 @@
 #include "labs/diagnosis/mutation.h"
 
 #include "base/memory.h"
+#include "base/text.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -48,7 +49,11 @@ typedef struct Maker {
     char operands[OPERANDS][512]; /* the node's text, those of its children, what its variable
                                      begins with; from 6 on: those of the children of its first and
                                      of its second child */
-    int node;
+    int node, variant;
+    const Mutation *only;          /* NULL: all */
+    unsigned *puts;                /* of what was tried at the node, the hashes */
+    signed char known[RULE_COUNT]; /* whether the tree has a rule's names; 0: not asked yet */
+    int put_count, put_room;
 } Maker;
 
 static const char MARK[] = "mutated_here";
@@ -169,9 +174,62 @@ static void fill(const Maker *maker, const char *form, bool grouped, char *text,
             text[used] = '\0';
             continue;
         }
-        used += (size_t)snprintf(text + used, size - used,
-                                 grouped && is_compound(put) ? "(%s)" : "%s", put);
+        const bool compound = grouped && is_compound(put);
+        const char *const parts[] = {compound ? "(" : "", put, compound ? ")" : ""};
+        for (int i = 0; i < 3; i++) {
+            const size_t left = size - used - 1, length = strlen(parts[i]);
+            memcpy(text + used, parts[i], length < left ? length : left);
+            used += length < left ? length : left;
+        }
+        text[used] = '\0';
     }
+}
+
+/* Whether no likelier rule put the same there. */
+static bool is_fresh(Maker *maker, const char *by)
+{
+    unsigned hash = 2166136261u;
+    for (const char *at = by; *at; at++)
+        hash = (hash ^ (unsigned char)*at) * 16777619u;
+    for (int i = 0; i < maker->put_count; i++)
+        if (maker->puts[i] == hash)
+            return false;
+    *(unsigned *)memory_add(&maker->puts, &maker->put_count, &maker->put_room, sizeof hash) = hash;
+    return true;
+}
+
+/* A variable or function; a uniform may be declared yet. */
+static bool is_known(const GlslTree *tree, const char *name, size_t length)
+{
+    static const char *const OTHERS[] = {"u_", "gl_", "vec", "true", "false"};
+    bool known = false;
+    for (int i = 0; i < 5 && !known; i++)
+        known = strncmp(name, OTHERS[i], strlen(OTHERS[i])) == 0;
+    for (int i = 1; i < tree->symbol_count && !known; i++)
+        known = strncmp(tree->symbols[i].name, name, length) == 0 && !tree->symbols[i].name[length];
+    for (int i = 0; i < GLSL_FUNCTION_COUNT && !known; i++)
+        known =
+            strncmp(GLSL_FUNCTIONS[i].name, name, length) == 0 && !GLSL_FUNCTIONS[i].name[length];
+    return known;
+}
+
+/* Else no mutant compiles. */
+static bool knows_names(Maker *maker, int rule)
+{
+    if (maker->known[rule] == 0) {
+        maker->known[rule] = 1;
+        for (const char *at = RULES[rule].by; *at; at++) {
+            size_t length = 0;
+            while (text_is_word(at[length]))
+                length++;
+            const bool name = length > 0 && (*at < '0' || *at > '9') && *at != 'e' &&
+                              (at == RULES[rule].by || (at[-1] != '.' && at[-1] != '$'));
+            if (name && !is_known(maker->tree, at, length))
+                maker->known[rule] = -1;
+            at += length > 0 ? length - 1 : 0;
+        }
+    }
+    return maker->known[rule] > 0;
 }
 
 static void make(Maker *maker, int rule)
@@ -179,11 +237,15 @@ static void make(Maker *maker, int rule)
     Mutation mutation = {.node = maker->node,
                          .sentence = RULES[rule].sentence,
                          .rank = rule,
+                         .variant = maker->variant,
                          .likely = rule < LIKELY_COUNT,
                          .general =
                              !strpbrk(RULES[rule].by, "#@") && RULES[rule].kind != GLSL_LITERAL};
     char by[2048];
     fill(maker, RULES[rule].by, true, by, sizeof by);
+    if (strcmp(by, maker->operands[0]) == 0 || (!by[0] && RULES[rule].by[0]) ||
+        !is_fresh(maker, by))
+        return;
     fill(maker, RULES[rule].name, false, mutation.name, sizeof mutation.name);
     snprintf(mutation.was, sizeof mutation.was, "%.159s", maker->operands[0]);
     snprintf(mutation.by, sizeof mutation.by, "%.159s", by);
@@ -192,8 +254,6 @@ static void make(Maker *maker, int rule)
     else
         snprintf(mutation.mends, sizeof mutation.mends, "%.70s for %.70s", mutation.was,
                  mutation.by);
-    if (strcmp(by, maker->operands[0]) == 0 || (!by[0] && RULES[rule].by[0]))
-        return;
     /* A statement is followed by its semicolon; within an expression anything is grouped. */
     const GlslNode *node = &maker->tree->nodes[maker->node];
     const bool whole = node->kind == GLSL_EXPRESSION || node->kind == GLSL_ASSIGN;
@@ -239,7 +299,9 @@ static void apply(Maker *maker, int rule)
                 snprintf(number, sizeof number, "%.9g", maker->numbers[k]);
                 strcat(number, strpbrk(number, ".e") ? "" : ".0");
             }
-            if (named && strcmp(names[i], maker->operands[0]) == 0)
+            maker->variant = i * MUTATION_NUMBERS + k;
+            if ((named && strcmp(names[i], maker->operands[0]) == 0) ||
+                (maker->only && maker->only->variant != maker->variant))
                 continue;
             maker->name = names[i];
             maker->number = number;
@@ -293,9 +355,11 @@ static void mutate(Maker *maker, int node, int mark)
     if (cut(maker, mark)) {
         read_operands(maker);
         for (int i = 0; i < RULE_COUNT && !maker->ended; i++)
-            if (matches(maker->tree, &maker->tree->nodes[node], &RULES[i]))
+            if ((!maker->only || maker->only->rank == i) &&
+                matches(maker->tree, &maker->tree->nodes[node], &RULES[i]) && knows_names(maker, i))
                 apply(maker, i);
     }
+    maker->put_count = 0;
     free(maker->before);
     free(maker->after);
 }
@@ -320,5 +384,20 @@ void mutations_each(GlslTree *tree, const double *numbers, int count, MutationTa
     Maker maker = {
         .tree = tree, .numbers = numbers, .number_count = count, .take = take, .context = context};
     walk(&maker, tree->root, add_mark(tree, MARK));
+    free(maker.puts);
+    tree->symbol_count--;
+}
+
+void mutations_again(GlslTree *tree, const Mutation *mutation, const double *numbers, int count,
+                     MutationTake *take, void *context)
+{
+    Maker maker = {.tree = tree,
+                   .numbers = numbers,
+                   .number_count = count,
+                   .take = take,
+                   .context = context,
+                   .only = mutation};
+    mutate(&maker, mutation->node, add_mark(tree, MARK));
+    free(maker.puts);
     tree->symbol_count--;
 }

@@ -21,6 +21,7 @@ typedef struct Mutation {
     const char *put;          /* all of `by`, in parentheses if it has to be */
     const char *sentence;     /* what is wrong, or "" */
     int rank;                 /* of two that are as near, the lower is named */
+    int variant;              /* which name and number of its rule's */
     bool likely;              /* of mutation_likely.def */
     bool general;             /* its text has no number and no name that was tried */
 } Mutation;
@@ -37,5 +38,9 @@ void mutation_take_back(GlslTree *tree, int node, const GlslNode *was);
  * afterwards. */
 void mutations_each(GlslTree *tree, const double *numbers, int count, MutationTake *take,
                     void *context);
+
+/* This one again, of a tree that was changed elsewhere. */
+void mutations_again(GlslTree *tree, const Mutation *mutation, const double *numbers, int count,
+                     MutationTake *take, void *context);
 
 #endif

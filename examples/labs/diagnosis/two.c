@@ -15,9 +15,8 @@
 enum {
     KEPT = 200,
     SAME = 3,
-    FIRSTS = 60,
     WITH_ANY = 9,
-    MOST_PAIRS = 4000, /* half a second */
+    MOST_PAIRS = 5000, /* half a second */
     MOST_ANY = 12000,
     SEEN = 6,
     MAX_VIEWS = MAX_TERMS,
@@ -30,6 +29,7 @@ typedef struct Step {
     GlslStage stage;
     char *text, *put;
     double score, print; /* print: steps that compute the same have the same */
+    PointShader shader;  /* open when it is asked for */
 } Step;
 
 typedef struct Search {
@@ -41,7 +41,6 @@ typedef struct Search {
     Step steps[KEPT + 1];
     int step_count, first, pairs, best_rank;
     bool any;              /* each second change is tried */
-    PointShader *opened;   /* the shader with the first step */
     Term views[MAX_VIEWS]; /* all of the light; then its terms */
     int view_count;
     double wanted[MAX_VIEWS][SEEN][POINT_NUMBERS], was[MAX_VIEWS][SEEN];
@@ -108,6 +107,7 @@ static void begin(Search *search)
 
 static void close_step(Step *step)
 {
+    point_shader_close(&step->shader);
     free(step->text);
     free(step->put);
 }
@@ -182,21 +182,6 @@ static bool try_first(void *context, const Mutation *mutation, const char *text)
     return true;
 }
 
-/* Whether it is among the steps, and was not the first of a pair yet. A step whose text holds the
- * first's is another than alone. */
-static bool is_step(const Search *search, const Mutation *mutation)
-{
-    const Step *first = &search->steps[search->first];
-    const bool holds = search->all->stage == first->stage && strstr(mutation->put, first->put);
-    for (int i = holds ? 0 : search->first + 1; i < search->step_count; i++) {
-        const Mutation *other = &search->steps[i].mutation;
-        if (search->steps[i].stage == search->all->stage && other->node == mutation->node &&
-            other->rank == mutation->rank && (holds || strcmp(other->by, mutation->by) == 0))
-            return true;
-    }
-    return false;
-}
-
 /* Whether it has the names of the pair that was found. */
 static bool is_found(const Search *search, const Mutation *second)
 {
@@ -239,6 +224,17 @@ static void take_pair(Search *search, const Mutation *second, int rank, const ch
     all->second.first = &all->mending;
 }
 
+static PointShader *opened_step(Search *search, int number)
+{
+    Step *step = &search->steps[number];
+    const GlslStage stage = search->all->stage;
+    search->all->stage = step->stage;
+    if (!step->shader.tree)
+        open_changed(search, step->text, &step->shader);
+    search->all->stage = stage;
+    return &step->shader;
+}
+
 static bool try_second(void *context, const Mutation *mutation, const char *text)
 {
     Search *search = context;
@@ -248,12 +244,12 @@ static bool try_second(void *context, const Mutation *mutation, const char *text
     const int rank = first->mutation.rank + mutation->rank + (tried ? 1000 : 0);
     PointShader shader, *pair[2] = {&search->base[0], &search->base[1]};
     if ((search->mends && all->two_found && rank > search->best_rank) ||
-        is_curve_of_shadow(all, mutation) || (!search->any && !is_step(search, mutation)))
+        is_curve_of_shadow(all, mutation))
         return true;
     search->pairs++;
     if (!open_changed(search, text, &shader))
         return true;
-    pair[first->stage] = search->opened;
+    pair[first->stage] = opened_step(search, search->first);
     pair[all->stage] = &shader;
     if (search->mends ? mend_apart(all, pair, DERIVATION_EQUAL) <= DERIVATION_EQUAL
                       : derive_is_same(all, pair))
@@ -270,33 +266,77 @@ static void mutate_all(Search *search, GlslStage stage, MutationTake *take)
 
 static void try_pairs(Search *search)
 {
-    Derivation *all = search->all;
     const Step *first = &search->steps[search->first];
     GlslTree *tree = search->base[first->stage].tree;
-    PointShader shader;
     GlslNode was;
-    all->stage = first->stage;
-    if (!open_changed(search, first->text, &shader))
-        return;
-    search->opened = &shader;
     mutation_put(tree, first->mutation.node, first->put, &was);
     mutate_all(search, first->stage, try_second);
     mutation_take_back(tree, first->mutation.node, &was);
     mutate_all(search, 1 - first->stage, try_second);
-    point_shader_close(&shader);
 }
 
-/* A step that computes what the one before does is not tried with any second. */
-static void try_all_pairs(Search *search, int most)
+/* Each of the best steps with any second; one that computes what the one before does is left out.
+ */
+static void try_any(Search *search)
 {
     const Step *steps = search->steps;
-    const int end = search->any ? WITH_ANY : FIRSTS;
+    search->any = true;
     search->pairs = 0;
-    for (int i = 0; i < search->step_count && i < end && search->pairs < most; i++) {
+    for (int i = 0; i < search->step_count && i < WITH_ANY && search->pairs < MOST_ANY; i++) {
         search->first = i;
-        if (!search->any || i == 0 || steps[i].score != steps[i - 1].score)
+        if (i == 0 || steps[i].score != steps[i - 1].score)
             try_pairs(search);
     }
+}
+
+/* The second step where the first has been put. */
+static void try_after(Search *search, int first, const Step *second)
+{
+    const Mutation *mutation = &search->steps[first].mutation;
+    GlslTree *tree = search->base[second->stage].tree;
+    GlslNode was;
+    search->first = first;
+    mutation_put(tree, mutation->node, search->steps[first].put, &was);
+    mutations_again(tree, &second->mutation, search->numbers, search->number_count, try_second,
+                    search);
+    mutation_take_back(tree, mutation->node, &was);
+}
+
+static void try_steps(Search *search, int i, int k)
+{
+    const Step *a = &search->steps[i], *b = &search->steps[k];
+    GlslTree *tree = search->base[b->stage].tree;
+    GlslNode was[2];
+    search->all->stage = b->stage;
+    search->first = i;
+    const bool above = a->stage == b->stage && mend_holds(tree, b->mutation.node, a->mutation.node);
+    const bool below = a->stage == b->stage && mend_holds(tree, a->mutation.node, b->mutation.node);
+    if (a->stage != b->stage)
+        try_second(search, &b->mutation, b->text);
+    if (above)
+        try_after(search, i, b);
+    if (below)
+        try_after(search, k, a);
+    if (above || below || a->stage != b->stage)
+        return;
+    mutation_put(tree, a->mutation.node, a->put, &was[0]);
+    mutation_put(tree, b->mutation.node, b->put, &was[1]);
+    char *text = glsl_print(tree, tree->root);
+    mutation_take_back(tree, b->mutation.node, &was[1]);
+    mutation_take_back(tree, a->mutation.node, &was[0]);
+    try_second(search, &b->mutation, text);
+    free(text);
+}
+
+/* The best first: by the sum of their places. */
+static void try_all_steps(Search *search)
+{
+    const int count = search->step_count;
+    search->pairs = 0;
+    for (int sum = 1; sum < 2 * count - 2; sum++)
+        for (int i = sum < count ? 0 : sum - count + 1; 2 * i < sum; i++)
+            if (search->pairs < MOST_PAIRS)
+                try_steps(search, i, sum - i);
 }
 
 bool two_find(Derivation *all, bool mends)
@@ -312,10 +352,9 @@ bool two_find(Derivation *all, bool mends)
     begin(search);
     for (int stage = GLSL_VERTEX; stage <= GLSL_FRAGMENT; stage++)
         mutate_all(search, (GlslStage)stage, try_first);
-    try_all_pairs(search, MOST_PAIRS);
-    search->any = true;
+    try_all_steps(search);
     if (!all->two_found)
-        try_all_pairs(search, MOST_ANY);
+        try_any(search);
     all->mended_twice = mends && all->two_found;
     for (int i = 0; i < search->step_count; i++)
         close_step(&search->steps[i]);
