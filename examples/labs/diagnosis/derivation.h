@@ -136,8 +136,9 @@ void derive_compare_values(Derivation *all, Found *found);
 bool derive_is_same(Derivation *all, PointShader *const pair[2]);
 
 /* Finds two changes, if any: of the submission that make it right together, or of the right program
- * that is open. */
-bool two_find(Derivation *all, bool mends);
+ * that is open, likely ones or any. */
+typedef enum TwoOf { TWO_MEND, TWO_LIKELY, TWO_ANY } TwoOf;
+bool two_find(Derivation *all, TwoOf of);
 
 /* What shaders assign on their way, in order. */
 typedef struct Values {

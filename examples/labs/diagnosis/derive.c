@@ -352,31 +352,33 @@ static const char *const ENDINGS[] = {"_apart", ""};
 /* One mutation of each right program. */
 static bool search(Derivation *all)
 {
+    bool seen = false; /* the vertex shaders of both */
     for (int i = 0; i < 4 && !all->best.text; i++) {
         const LitAt lit = i % 2 ? LIT_AT_POINTS : LIT_AT_VERTICES;
         /* Where it computes what is right, it is wrong by what is undefined, or by precision. */
         if ((i % 2 && !all->lab->either) || !derive_use_right(all, ENDINGS[i / 2], lit) ||
             all->wrong_by <= 4 * EQUAL)
             continue;
-        for (int stage = GLSL_FRAGMENT; stage >= GLSL_VERTEX; stage--) {
+        for (int stage = GLSL_FRAGMENT; stage >= (seen ? GLSL_FRAGMENT : GLSL_VERTEX); stage--) {
             all->stage = (GlslStage)stage;
             mutations_each(all->right[stage].tree, all->numbers, all->number_count, try_mutant,
                            all);
         }
+        seen = !all->lab->either;
     }
     return all->best.text;
 }
 
 /* Two of the right program that is nearest. A shadow is all or nothing, so that two explain too
  * much. */
-static bool search_two(Derivation *all)
+static bool search_two(Derivation *all, TwoOf of)
 {
     double apart[2] = {INFINITY, INFINITY};
     for (int i = 0; i < 2; i++)
         if (derive_use_right(all, ENDINGS[i], LIT_NEAREST) && all->wrong_by > 4 * EQUAL)
             apart[i] = all->nearest_right;
     if (all->lab->budget || all->lab->shadow ||
-        !derive_use_right(all, ENDINGS[apart[0] >= apart[1]], LIT_NEAREST) || !two_find(all, false))
+        !derive_use_right(all, ENDINGS[apart[0] >= apart[1]], LIT_NEAREST) || !two_find(all, of))
         return false;
     find_place(all, &all->second);
     return true;
@@ -405,7 +407,9 @@ static bool explain(Derivation *all, Verdict *verdict)
         all->mended)
         return true;
     /* Of lab 10's sphere normals and places are the same, so that two changes explain too much. */
-    return !all->lab->budget && (two_find(all, true) || (!blind && search_two(all)));
+    return !all->lab->budget &&
+           (two_find(all, TWO_MEND) ||
+            (!blind && (search_two(all, TWO_LIKELY) || search_two(all, TWO_ANY))));
 }
 
 bool derive_mistake(Derivation *all, Verdict *verdict)

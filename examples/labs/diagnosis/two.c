@@ -34,7 +34,7 @@ typedef struct Step {
 
 typedef struct Search {
     Derivation *all;
-    bool mends;
+    bool mends, likely;
     PointShader *base, *goal; /* what is changed, until it computes what */
     const double *numbers;    /* that changes try */
     int number_count;
@@ -117,6 +117,12 @@ static bool is_better(const Step *a, const Step *b)
     return a->score != b->score ? a->score > b->score : a->mutation.rank < b->mutation.rank;
 }
 
+/* In a right program that is changed, names and numbers that are tried come last. */
+static int rank_of(const Search *search, const Mutation *mutation)
+{
+    return mutation->rank + (search->mends || mutation->general ? 0 : 1000);
+}
+
 /* Of steps that compute the same where it was looked, and may not elsewhere, the likeliest; of the
  * others the best. */
 static void keep(Search *search, const Step *step)
@@ -127,10 +133,12 @@ static void keep(Search *search, const Step *step)
         if (fabs(other->print - step->print) > 1e-9 * (1 + fabs(step->print)))
             continue;
         same++;
-        if (worst < 0 || other->mutation.rank >= search->steps[worst].mutation.rank)
+        if (worst < 0 ||
+            rank_of(search, &other->mutation) >= rank_of(search, &search->steps[worst].mutation))
             worst = i;
     }
-    if (same == SAME && search->steps[worst].mutation.rank <= step->mutation.rank)
+    if (same == SAME &&
+        rank_of(search, &search->steps[worst].mutation) <= rank_of(search, &step->mutation))
         return;
     if (same == SAME) {
         at = worst;
@@ -167,7 +175,8 @@ static bool try_first(void *context, const Mutation *mutation, const char *text)
     Search *search = context;
     Derivation *all = search->all;
     PointShader shader, *pair[2] = {&search->base[0], &search->base[1]};
-    if (is_curve_of_shadow(all, mutation) || !open_changed(search, text, &shader))
+    if ((search->likely && !mutation->likely) || is_curve_of_shadow(all, mutation) ||
+        !open_changed(search, text, &shader))
         return true;
     pair[all->stage] = &shader;
     Step step = {.mutation = *mutation,
@@ -339,11 +348,13 @@ static void try_all_steps(Search *search)
                 try_steps(search, i, sum - i);
 }
 
-bool two_find(Derivation *all, bool mends)
+bool two_find(Derivation *all, TwoOf of)
 {
+    const bool mends = of == TWO_MEND;
     Search *search = memory_new(1, sizeof *search);
     *search = (Search){.all = all,
                        .mends = mends,
+                       .likely = of == TWO_LIKELY,
                        .base = mends ? all->own : all->right,
                        .goal = mends ? all->right : all->own,
                        .numbers = mends ? all->right_numbers : all->numbers,
@@ -353,7 +364,7 @@ bool two_find(Derivation *all, bool mends)
     for (int stage = GLSL_VERTEX; stage <= GLSL_FRAGMENT; stage++)
         mutate_all(search, (GlslStage)stage, try_first);
     try_all_steps(search);
-    if (!all->two_found)
+    if (!all->two_found && of == TWO_ANY)
         try_any(search);
     all->mended_twice = mends && all->two_found;
     for (int i = 0; i < search->step_count; i++)
