@@ -17,7 +17,7 @@ enum {
     SAME = 3,
     WITH_ANY = 9,
     MOST_PAIRS = 5000, /* half a second */
-    MOST_ANY = 12000,
+    MOST_ANY = 8000,
     SEEN = 6,
     MAX_VIEWS = MAX_TERMS,
     TRACES = 2
@@ -170,13 +170,20 @@ static bool is_curve_of_shadow(const Derivation *all, const Mutation *mutation)
     return curve;
 }
 
+/* What a submission has too many is found where it is left out. */
+static bool is_left_out(const Search *search, const Mutation *mutation)
+{
+    const bool added = !mutation->general && strstr(mutation->by, mutation->was);
+    return (search->likely && !mutation->likely) || (!search->mends && added) ||
+           is_curve_of_shadow(search->all, mutation);
+}
+
 static bool try_first(void *context, const Mutation *mutation, const char *text)
 {
     Search *search = context;
     Derivation *all = search->all;
     PointShader shader, *pair[2] = {&search->base[0], &search->base[1]};
-    if ((search->likely && !mutation->likely) || is_curve_of_shadow(all, mutation) ||
-        !open_changed(search, text, &shader))
+    if (is_left_out(search, mutation) || !open_changed(search, text, &shader))
         return true;
     pair[all->stage] = &shader;
     Step step = {.mutation = *mutation,
@@ -185,7 +192,7 @@ static bool try_first(void *context, const Mutation *mutation, const char *text)
                  .put = (char *)mutation->put};
     step.score = look(search, pair, &step.print);
     step.score += 1.5 * (count_shared(search, pair) - search->shared);
-    if (step.score > 0.2)
+    if (step.score > 0.2 || search->likely)
         keep(search, &step);
     point_shader_close(&shader);
     return true;
@@ -253,7 +260,7 @@ static bool try_second(void *context, const Mutation *mutation, const char *text
     const int rank = first->mutation.rank + mutation->rank + (tried ? 1000 : 0);
     PointShader shader, *pair[2] = {&search->base[0], &search->base[1]};
     if ((search->mends && all->two_found && rank > search->best_rank) ||
-        is_curve_of_shadow(all, mutation))
+        is_left_out(search, mutation))
         return true;
     search->pairs++;
     if (!open_changed(search, text, &shader))
