@@ -88,7 +88,7 @@ static void test_lab(const Lab *lab, Trial *sum)
     for (trial.stage = 0; trial.stage < 2; trial.stage++) {
         GlslTree *tree = glsl_parse(trial.texts[trial.stage], (GlslStage)trial.stage, NULL);
         trial.seen = 0;
-        mutations_each(tree, numbers, 1, take, &trial);
+        mutations_each(tree, NULL, numbers, 1, take, &trial);
         glsl_tree_free(tree);
     }
     for (int i = 0; i < 2; i++)

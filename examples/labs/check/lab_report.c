@@ -66,7 +66,7 @@ static bool try_stage(Report *report, GlslStage stage)
     report->name = name;
     GlslTree *tree = glsl_parse(submission_file(report->lab->solutions, name), stage, NULL);
     if (tree->message_count == 0)
-        mutations_each(tree, NULL, 0, try_mutant, report);
+        mutations_each(tree, NULL, NULL, 0, try_mutant, report);
     else
         message_set(report->message, "%s: %s", name, tree->messages[0].text);
     report->failed |= tree->message_count > 0;

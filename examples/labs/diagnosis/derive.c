@@ -361,8 +361,8 @@ static bool search(Derivation *all)
             continue;
         for (int stage = GLSL_FRAGMENT; stage >= (seen ? GLSL_FRAGMENT : GLSL_VERTEX); stage--) {
             all->stage = (GlslStage)stage;
-            mutations_each(all->right[stage].tree, all->numbers, all->number_count, try_mutant,
-                           all);
+            mutations_each(all->right[stage].tree, NULL, all->numbers, all->number_count,
+                           try_mutant, all);
         }
         seen = !all->lab->either;
     }

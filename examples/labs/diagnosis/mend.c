@@ -130,7 +130,7 @@ bool mend_find(Derivation *all)
     for (int stage = GLSL_VERTEX; stage <= GLSL_FRAGMENT; stage++) {
         all->stage = (GlslStage)stage;
         all->undeclared[stage] = right_undeclared(&all->points, all->own[stage].tree);
-        mutations_each(all->own[stage].tree, all->right_numbers, all->right_number_count,
+        mutations_each(all->own[stage].tree, NULL, all->right_numbers, all->right_number_count,
                        try_change, all);
     }
     all->mended_there = all->mended && is_there(all, &all->mending);

@@ -5,7 +5,6 @@
 #include "labs/diagnosis/mutation.h"
 
 #include "base/memory.h"
-#include "base/text.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -50,9 +49,8 @@ typedef struct Maker {
                                      begins with; from 6 on: those of the children of its first and
                                      of its second child */
     int node, variant;
-    const Mutation *only;          /* NULL: all */
-    unsigned *puts;                /* of what was tried at the node, the hashes */
-    signed char known[RULE_COUNT]; /* whether the tree has a rule's names; 0: not asked yet */
+    const Mutation *only; /* NULL: all */
+    unsigned *puts;       /* of what was tried at the node, the hashes */
     int put_count, put_room;
 } Maker;
 
@@ -174,14 +172,8 @@ static void fill(const Maker *maker, const char *form, bool grouped, char *text,
             text[used] = '\0';
             continue;
         }
-        const bool compound = grouped && is_compound(put);
-        const char *const parts[] = {compound ? "(" : "", put, compound ? ")" : ""};
-        for (int i = 0; i < 3; i++) {
-            const size_t left = size - used - 1, length = strlen(parts[i]);
-            memcpy(text + used, parts[i], length < left ? length : left);
-            used += length < left ? length : left;
-        }
-        text[used] = '\0';
+        used += (size_t)snprintf(text + used, size - used,
+                                 grouped && is_compound(put) ? "(%s)" : "%s", put);
     }
 }
 
@@ -196,40 +188,6 @@ static bool is_fresh(Maker *maker, const char *by)
             return false;
     *(unsigned *)memory_add(&maker->puts, &maker->put_count, &maker->put_room, sizeof hash) = hash;
     return true;
-}
-
-/* A variable or function; a uniform may be declared yet. */
-static bool is_known(const GlslTree *tree, const char *name, size_t length)
-{
-    static const char *const OTHERS[] = {"u_", "gl_", "vec", "true", "false"};
-    bool known = false;
-    for (int i = 0; i < 5 && !known; i++)
-        known = strncmp(name, OTHERS[i], strlen(OTHERS[i])) == 0;
-    for (int i = 1; i < tree->symbol_count && !known; i++)
-        known = strncmp(tree->symbols[i].name, name, length) == 0 && !tree->symbols[i].name[length];
-    for (int i = 0; i < GLSL_FUNCTION_COUNT && !known; i++)
-        known =
-            strncmp(GLSL_FUNCTIONS[i].name, name, length) == 0 && !GLSL_FUNCTIONS[i].name[length];
-    return known;
-}
-
-/* Else no mutant compiles. */
-static bool knows_names(Maker *maker, int rule)
-{
-    if (maker->known[rule] == 0) {
-        maker->known[rule] = 1;
-        for (const char *at = RULES[rule].by; *at; at++) {
-            size_t length = 0;
-            while (text_is_word(at[length]))
-                length++;
-            const bool name = length > 0 && (*at < '0' || *at > '9') && *at != 'e' &&
-                              (at == RULES[rule].by || (at[-1] != '.' && at[-1] != '$'));
-            if (name && !is_known(maker->tree, at, length))
-                maker->known[rule] = -1;
-            at += length > 0 ? length - 1 : 0;
-        }
-    }
-    return maker->known[rule] > 0;
 }
 
 static void make(Maker *maker, int rule)
@@ -356,7 +314,7 @@ static void mutate(Maker *maker, int node, int mark)
         read_operands(maker);
         for (int i = 0; i < RULE_COUNT && !maker->ended; i++)
             if ((!maker->only || maker->only->rank == i) &&
-                matches(maker->tree, &maker->tree->nodes[node], &RULES[i]) && knows_names(maker, i))
+                matches(maker->tree, &maker->tree->nodes[node], &RULES[i]))
                 apply(maker, i);
     }
     maker->put_count = 0;
@@ -378,26 +336,20 @@ static void walk(Maker *maker, int node, int mark)
             walk(maker, i, mark);
 }
 
-void mutations_each(GlslTree *tree, const double *numbers, int count, MutationTake *take,
-                    void *context)
-{
-    Maker maker = {
-        .tree = tree, .numbers = numbers, .number_count = count, .take = take, .context = context};
-    walk(&maker, tree->root, add_mark(tree, MARK));
-    free(maker.puts);
-    tree->symbol_count--;
-}
-
-void mutations_again(GlslTree *tree, const Mutation *mutation, const double *numbers, int count,
-                     MutationTake *take, void *context)
+void mutations_each(GlslTree *tree, const Mutation *only, const double *numbers, int count,
+                    MutationTake *take, void *context)
 {
     Maker maker = {.tree = tree,
+                   .only = only,
                    .numbers = numbers,
                    .number_count = count,
                    .take = take,
-                   .context = context,
-                   .only = mutation};
-    mutate(&maker, mutation->node, add_mark(tree, MARK));
+                   .context = context};
+    const int mark = add_mark(tree, MARK);
+    if (only)
+        mutate(&maker, only->node, mark);
+    else
+        walk(&maker, tree->root, mark);
     free(maker.puts);
     tree->symbol_count--;
 }

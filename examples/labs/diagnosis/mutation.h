@@ -34,13 +34,9 @@ typedef bool MutationTake(void *context, const Mutation *mutation, const char *t
 void mutation_put(GlslTree *tree, int node, const char *put, GlslNode *was);
 void mutation_take_back(GlslTree *tree, int node, const GlslNode *was);
 
-/* All mutants of a valid tree. `numbers` are tried where a number may be wrong. `tree` is as it was
- * afterwards. */
-void mutations_each(GlslTree *tree, const double *numbers, int count, MutationTake *take,
-                    void *context);
-
-/* This one again, of a tree that was changed elsewhere. */
-void mutations_again(GlslTree *tree, const Mutation *mutation, const double *numbers, int count,
-                     MutationTake *take, void *context);
+/* All mutants of a valid tree, or `only` this one again, of a tree that was changed elsewhere.
+ * `numbers` are tried where a number may be wrong. `tree` is as it was afterwards. */
+void mutations_each(GlslTree *tree, const Mutation *only, const double *numbers, int count,
+                    MutationTake *take, void *context);
 
 #endif

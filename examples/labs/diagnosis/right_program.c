@@ -201,7 +201,7 @@ bool right_run_all(Derivation *all)
         add_right(all, all->right);
     }
     if (all->lab->fitted || all->lab->shadow)
-        mutations_each(all->right[1].tree, all->numbers, all->number_count, add_free, all);
+        mutations_each(all->right[1].tree, NULL, all->numbers, all->number_count, add_free, all);
     return true;
 }
 
@@ -221,7 +221,7 @@ void right_run(Derivation *all, LitAt lit)
     light_at_once(all, all->nearest_light);
     all->nearest_right = derivation_run(all, all->right, all->exact, all->wanted);
     if (all->lab->fitted || all->lab->shadow)
-        mutations_each(all->right[1].tree, all->numbers, all->number_count, try_right, all);
+        mutations_each(all->right[1].tree, NULL, all->numbers, all->number_count, try_right, all);
     if (all->nearest_text) {
         point_shader_close(&all->right[1]);
         point_shader_open(&all->right[1], all->nearest_text, GLSL_FRAGMENT);

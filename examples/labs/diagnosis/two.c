@@ -240,9 +240,9 @@ static void take_pair(Search *search, const Mutation *second, int rank, const ch
     all->second.first = &all->mending;
 }
 
-static PointShader *opened_step(Search *search, int number)
+/* Beside a second of the other stage. */
+static PointShader *open_step(Search *search, Step *step)
 {
-    Step *step = &search->steps[number];
     const GlslStage stage = search->all->stage;
     search->all->stage = step->stage;
     if (!step->shader.tree)
@@ -255,7 +255,7 @@ static bool try_second(void *context, const Mutation *mutation, const char *text
 {
     Search *search = context;
     Derivation *all = search->all;
-    const Step *first = &search->steps[search->first];
+    Step *first = &search->steps[search->first];
     const bool tried = !search->mends && !(first->mutation.general && mutation->general);
     const int rank = first->mutation.rank + mutation->rank + (tried ? 1000 : 0);
     PointShader shader, *pair[2] = {&search->base[0], &search->base[1]};
@@ -265,7 +265,8 @@ static bool try_second(void *context, const Mutation *mutation, const char *text
     search->pairs++;
     if (!open_changed(search, text, &shader))
         return true;
-    pair[first->stage] = opened_step(search, search->first);
+    if (first->stage != all->stage)
+        pair[first->stage] = open_step(search, first);
     pair[all->stage] = &shader;
     if (search->mends ? mend_apart(all, pair, DERIVATION_EQUAL) <= DERIVATION_EQUAL
                       : derive_is_same(all, pair))
@@ -277,7 +278,8 @@ static bool try_second(void *context, const Mutation *mutation, const char *text
 static void mutate_all(Search *search, GlslStage stage, MutationTake *take)
 {
     search->all->stage = stage;
-    mutations_each(search->base[stage].tree, search->numbers, search->number_count, take, search);
+    mutations_each(search->base[stage].tree, NULL, search->numbers, search->number_count, take,
+                   search);
 }
 
 static void try_pairs(Search *search)
@@ -291,14 +293,14 @@ static void try_pairs(Search *search)
     mutate_all(search, 1 - first->stage, try_second);
 }
 
-/* Each of the best steps with any second; one that computes what the one before does is left out.
- */
-static void try_any(Search *search)
+/* Each of the best steps with any second, as one that hides the other; one that computes what the
+ * one before does is left out. */
+static void try_any(Search *search, int firsts)
 {
     const Step *steps = search->steps;
     search->any = true;
     search->pairs = 0;
-    for (int i = 0; i < search->step_count && i < WITH_ANY && search->pairs < MOST_ANY; i++) {
+    for (int i = 0; i < search->step_count && i < firsts && search->pairs < MOST_ANY; i++) {
         search->first = i;
         if (i == 0 || steps[i].score != steps[i - 1].score)
             try_pairs(search);
@@ -313,8 +315,8 @@ static void try_after(Search *search, int first, const Step *second)
     GlslNode was;
     search->first = first;
     mutation_put(tree, mutation->node, search->steps[first].put, &was);
-    mutations_again(tree, &second->mutation, search->numbers, search->number_count, try_second,
-                    search);
+    mutations_each(tree, &second->mutation, search->numbers, search->number_count, try_second,
+                   search);
     mutation_take_back(tree, mutation->node, &was);
 }
 
@@ -325,15 +327,17 @@ static void try_steps(Search *search, int i, int k)
     GlslNode was[2];
     search->all->stage = b->stage;
     search->first = i;
-    const bool above = a->stage == b->stage && mend_holds(tree, b->mutation.node, a->mutation.node);
-    const bool below = a->stage == b->stage && mend_holds(tree, a->mutation.node, b->mutation.node);
-    if (a->stage != b->stage)
+    if (a->stage != b->stage) {
         try_second(search, &b->mutation, b->text);
+        return;
+    }
+    const bool above = mend_holds(tree, b->mutation.node, a->mutation.node);
+    const bool below = mend_holds(tree, a->mutation.node, b->mutation.node);
     if (above)
         try_after(search, i, b);
     if (below)
         try_after(search, k, a);
-    if (above || below || a->stage != b->stage)
+    if (above || below)
         return;
     mutation_put(tree, a->mutation.node, a->put, &was[0]);
     mutation_put(tree, b->mutation.node, b->put, &was[1]);
@@ -371,8 +375,8 @@ bool two_find(Derivation *all, TwoOf of)
     for (int stage = GLSL_VERTEX; stage <= GLSL_FRAGMENT; stage++)
         mutate_all(search, (GlslStage)stage, try_first);
     try_all_steps(search);
-    if (!all->two_found && of == TWO_ANY)
-        try_any(search);
+    if (!all->two_found && of != TWO_LIKELY)
+        try_any(search, mends ? 1 : WITH_ANY);
     all->mended_twice = mends && all->two_found;
     for (int i = 0; i < search->step_count; i++)
         close_step(&search->steps[i]);
