@@ -332,6 +332,27 @@ class Holes(Labs):
         self.assertEqual(result["verdict"], "wrong", (lab, edits, result["message"]))
         return result
 
+    def test_what_is_said_to_mend_it_does(self):
+        """In lab 7 several exponents are right, and two mistakes that hide each other are named in every seed."""
+        halved = ("frag", "normalize(lightDirection + viewDirection)", "(lightDirection + viewDirection) / 2.0")
+        exponent, power = "4.0 * u_Shininess + 1.3", ("frag", "pow(nDotH, shininess)", "exp2(log(nDotH) * shininess)")
+        reversed_light = ("vert", "u_LightPosition[i] - position", "position - u_LightPosition[i]")
+        matrix = ("vert", "u_NormalMatrix * vec4", "u_ModelMatrix * vec4")
+        cases = [
+            (7, 1, ["not normalized: "], halved, ("frag", exponent, "u_Shininess * 4.0")),
+            (7, 1, ["not normalized: "], halved, ("frag", exponent, "4.05 * u_Shininess")),
+            (7, 1, ["5.0 for 4.0"], ("frag", exponent, "5.0 * u_Shininess")),
+            (7, 1, ["log(nDotH) for log2(nDotH)"], power, ("frag", exponent, "4.0 * u_Shininess")),
+            (4, 1, ["reversed: ", "u_ModelMatrix for u_NormalMatrix"], reversed_light, matrix),
+            (4, 7, ["reversed: ", "u_ModelMatrix for u_NormalMatrix"], reversed_light, matrix),
+        ]
+        cases = cases[:: base.step(2)]
+        jobs = [(lab, edited(lab, *edits), seed) for lab, seed, _, *edits in cases]
+        for (_, _, names, *edits), result in zip(cases, in_parallel(check_texts, jobs)):
+            self.assertEqual(len(named(result)), len(names), (edits, result["message"]))
+            for name, said in zip(names, named(result)):
+                self.assertTrue(said.startswith(name), (edits, result["message"]))
+
     def test_light_that_is_clamped_before_the_colour(self):
         for lab, limit in ((4, "0.95"), (2, "1.0"), (5, "0.98"))[: None if base.LONG else 0]:
             out = mistakes.OUT[lab]
