@@ -77,14 +77,16 @@ static bool is_there(const Derivation *all, const Found *found)
            mend_holds(all->own[found->stage].tree, all->place_node, found->mutation.node);
 }
 
-/* Below 0: a is the better change: right to the last digit; where the first wrong value is; of the
+/* Below 0: a is the better change: right to the last digit, and not by a
+ * formula instead of all; where the first wrong value is; of the
  * likelier rule; the earlier one; the smaller one. */
 static int compare(const Derivation *all, const Found *a, const Found *b)
 {
     const GlslPlace *place = &all->own[a->stage].tree->nodes[a->mutation.node].place;
     const GlslPlace *other = &all->own[b->stage].tree->nodes[b->mutation.node].place;
     const bool there = is_there(all, a), other_there = is_there(all, b);
-    const bool exact = a->apart <= DERIVATION_EQUAL, other_exact = b->apart <= DERIVATION_EQUAL;
+    const bool exact = a->apart <= DERIVATION_EQUAL && !a->mutation.formula;
+    const bool other_exact = b->apart <= DERIVATION_EQUAL && !b->mutation.formula;
     return exact != other_exact                   ? (int)other_exact - (int)exact
            : there != other_there                 ? (int)other_there - (int)there
            : a->mutation.rank != b->mutation.rank ? a->mutation.rank - b->mutation.rank

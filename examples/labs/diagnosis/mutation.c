@@ -197,6 +197,7 @@ static void make(Maker *maker, int rule)
                          .rank = rule,
                          .variant = maker->variant,
                          .likely = rule < LIKELY_COUNT,
+                         .formula = !strpbrk(RULES[rule].by, "$@") && strchr(RULES[rule].by, '('),
                          .general =
                              !strpbrk(RULES[rule].by, "#@") && RULES[rule].kind != GLSL_LITERAL};
     char by[2048];

@@ -23,6 +23,7 @@ typedef struct Mutation {
     int rank;                 /* of two that are as near, the lower is named */
     int variant;              /* which name and number of its rule's */
     bool likely;              /* of mutation_likely.def */
+    bool formula;             /* nothing of what was there is left */
     bool general;             /* its text has no number and no name that was tried */
 } Mutation;
 
