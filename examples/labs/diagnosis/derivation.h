@@ -53,11 +53,11 @@ typedef struct Derivation {
     int number_count, own_number_count; /* as they are in the submission */
     double right_numbers[MUTATION_NUMBERS];
     int right_number_count;
-    char *undeclared[2]; /* uniforms that the submission's stages lack */
-    GlslStage stage;     /* that is mutated */
-    Found best;          /* of those that compute the same; its text is NULL: none does */
-    bool unique;         /* no other has as many of the submission's values */
-    Found mending;       /* the change of the submission that makes it right, if `mended` */
+    char *undeclared[2];       /* uniforms that the submission's stages lack */
+    GlslStage stage;           /* that is mutated */
+    Found best;                /* of those that compute the same; its text is NULL: none does */
+    bool unique;               /* no other has as many of the submission's values */
+    Found mending;             /* the change of the submission that makes it right, if `mended` */
     bool mended, mended_there; /* `mended`: within the tolerance */
     Found second; /* of two changes, if `two_found`: of the submission, or of a right program */
     bool two_found, mended_twice;
