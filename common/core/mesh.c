@@ -19,18 +19,14 @@ void mesh_close(Mesh *mesh)
     *mesh = (Mesh){0};
 }
 
-static Vec3 position_of(const Mesh *mesh, uint32_t vertex)
-{
-    return vec3_from_float(mesh->vertices[vertex].position);
-}
-
 MeshBox mesh_bounds(const Mesh *mesh)
 {
     MeshBox box = {.low = {0, 0, 0}};
     if (mesh->vertex_count > 0)
-        box.low = box.high = position_of(mesh, 0);
+        box.low = box.high = vec3_from_float(mesh->vertices[0].position);
     for (size_t i = 1; i < mesh->vertex_count; i++) {
-        const Vec3 p = position_of(mesh, (uint32_t)i), low = box.low, high = box.high;
+        const Vec3 low = box.low, high = box.high;
+        const Vec3 p = vec3_from_float(mesh->vertices[i].position);
         box.low = (Vec3){fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z)};
         box.high = (Vec3){fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z)};
     }

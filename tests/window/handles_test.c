@@ -47,6 +47,10 @@ TEST(handles_are_where_lights_are_drawn)
         pixel_of(i == 0 ? lights[0].position : lights[1].direction, &x, &y);
         assert_int_equal(handles[i].light, i);
         assert_int_equal(handles[i].view, 5);
+        float ring[3];
+        handles_ring(&scene.camera, PLACE,
+                     (Sphere){i ? lights[1].direction : lights[0].position, 1}, ring);
+        assert_true(fabs((double)ring[0] - x) + fabs((double)ring[1] - y) < 1e-3 && ring[2] > 0);
         assert_true(fabs(handles[i].x - x) < 1e-9 && fabs(handles[i].y - y) < 1e-9);
         assert_ptr_equal(handles_find(handles, 2, x + 3, y - 4, 5.001), &handles[i]);
         assert_null(handles_find(handles, 2, x + 3, y - 4, 4.999));
