@@ -17,15 +17,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SIZE_MAX_READ = 32 << 20 };
-
 static char *read_all(const char *path)
 {
+    char *text = NULL;
+    size_t size = 0;
     FILE *file = fopen(path, "rb");
-    char *text = malloc(SIZE_MAX_READ);
-    const size_t size = file && text ? fread(text, 1, SIZE_MAX_READ - 1, file) : 0;
-    if (text)
-        text[size] = '\0';
+    if (file && getdelim(&text, &size, '\0', file) < 0)
+        text[0] = '\0';
     if (file)
         fclose(file);
     return text;

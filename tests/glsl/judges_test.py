@@ -6,6 +6,7 @@ usage: judges_test.py EXAMPLES_FOLDER_OF_THE_BUILD SOURCE_FOLDER [unittest's arg
 Shaders of every program as the driver gets them, every submission of the corpus, random programs, and mutations of all.
 Where the two judges differ, RULINGS says which of them the specification is with. LIGHTING_TEST_SEED seeds.
 """
+import functools
 import glob
 import os
 import re
@@ -60,8 +61,10 @@ AGAINST_BOTH = [
 ]
 
 
+@functools.cache
 def programs():
     """The shaders of the programs that draw, by name."""
+    found = []
     with open(os.path.join(SOURCE, "examples/meson.build")) as file:
         listed = re.findall(r"^  '(\w+)',$", file.read(), re.MULTILINE)
     for program in listed:
@@ -71,7 +74,8 @@ def programs():
         for stage in ("vert", "frag"):
             done = subprocess.run([os.path.join(EXAMPLES, program), f"--print-shader={stage}"], capture_output=True, text=True)
             for i, text in enumerate(re.split(r"^(?=#version)", done.stdout, flags=re.MULTILINE)[1:]):
-                yield f"{program}-{i}.{stage}", text
+                found.append((f"{program}-{i}.{stage}", text))
+    return found
 
 
 def submissions():
@@ -207,7 +211,7 @@ class Judges(unittest.TestCase):
             yield f"random{i}.{program.stage}", text
 
     def test_mutations(self):
-        originals = list(programs()) + [pair for pair in submissions()][::7]
+        originals = programs() + [pair for pair in submissions()][::7]
         originals += list(self.random_programs(200))
         count = 6000 if LONG else 200
         texts = []
