@@ -24,18 +24,6 @@ static PartState judge_light(Derivation *all, const char *name)
     return state;
 }
 
-/* The last value of a variable so named; -1: it has none. */
-static int find_value(const Derivation *all, const Values *values, const char *name)
-{
-    int found = -1;
-    for (int i = 0; i < values->count; i++) {
-        const GlslTree *tree = all->right[values->items[i].stage].tree;
-        if (strcmp(tree->symbols[values->items[i].symbol].name, name) == 0)
-            found = i;
-    }
-    return found;
-}
-
 /* Rules out the registers, of both stages, that do not hold a number or what to divide by instead.
  * *any: one is left. */
 static void rule_out(const Derivation *all, double number, bool *ruled_out, bool *any)
@@ -54,23 +42,25 @@ static void rule_out(const Derivation *all, double number, bool *ruled_out, bool
 
 static PartState judge_variable(Derivation *all, const char *name)
 {
+    enum { MOST = 16 }; /* numbers, of a matrix */
     const int registers =
         all->own[0].run->code->register_count + all->own[1].run->code->register_count;
-    bool *ruled_out = memory_new(4 * (size_t)registers, 1), any = true;
-    Values *right = memory_new(2, sizeof *right), *own = right + 1;
+    bool *ruled_out = memory_new(MOST * (size_t)registers, 1), any = true;
+    Values *values = memory_new(1, sizeof *values);
     PartState state = PART_UNSEEN;
     for (int i = 0; i < all->points.count && any; i++) {
-        values_trace(&all->points, &all->right[0], &all->right[1], i, right);
-        const int value = find_value(all, right, name);
-        if (value < 0)
+        values_trace(&all->points, &all->right[0], &all->right[1], i, values);
+        const GlslRun *run = all->right[glsl_last(all->right[1].run, name) ? 1 : 0].run;
+        const GlslEvent *event = glsl_last(run, name);
+        if (!event)
             continue;
-        values_trace(&all->points, &all->own[0], &all->own[1], i, own);
-        for (int k = 0; k < right->items[value].size && any; k++)
-            rule_out(all, right->items[value].numbers[k], ruled_out + k * registers, &any);
+        values_trace(&all->points, &all->own[0], &all->own[1], i, values);
+        for (int k = 0; k < event->count && k < MOST && any; k++)
+            rule_out(all, run->values[event->value + k], ruled_out + k * registers, &any);
         state = any ? PART_RIGHT : PART_WRONG;
     }
     free(ruled_out);
-    free(right);
+    free(values);
     return state;
 }
 
