@@ -253,27 +253,6 @@ TEST_WITH(0, results_are_kept_and_merged, start, NULL)
     class_store_close(&store);
 }
 
-static ClassResult with_cost(const char *name, double error, double ratio)
-{
-    ClassResult result = result_of(name, 1, true, 8);
-    result.verdict.cost = (VerdictCost){.known = true,
-                                        .error = error,
-                                        .time_ratio = 1 - ratio,
-                                        .operations = 1e6 * ratio,
-                                        .operations_ratio = ratio};
-    return result;
-}
-
-TEST_WITH(0, the_front_has_unbeaten_results, start, NULL)
-{
-    ClassResult results[] = {with_cost("a", 1, 0.5), with_cost("b", 0.5, 1), with_cost("c", 1, 1),
-                             with_cost("d", 0.5, 1), result_of("e", 1, true, 8)};
-    static const bool efficient[] = {true, true, false, true, false};
-    const ClassStore store = {.results = results, .count = 5};
-    for (int i = 0; i < 5; i++)
-        assert_int_equal(pareto_front_has(&store, &results[i]), efficient[i]);
-}
-
 int main(void)
 {
     return testing_run(0, "class", testing_enter_folder, testing_leave_folder);

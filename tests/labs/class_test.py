@@ -620,6 +620,23 @@ class Results(Class):
         third = self.judged()
         self.assertTrue(all(third[name] > second[name] for name in second))
 
+    def test_the_front_has_those_that_no_other_beats(self):
+        """Of results with other costs."""
+        costs = {"a": (1, 500), "b": (0.5, 1000), "c": (1, 1000), "d": (0.5, 1000), "e": None}
+        for name in costs:
+            self.submit(name)
+        self.lab5()
+        for name, cost in costs.items():
+            path = os.path.join("out/students", name, "result.json")
+            result = json.loads(read(self.path(path)))
+            if cost:
+                result["cost"] = {"error": cost[0], "time_ratio": 1, "operations": cost[1], "operations_ratio": cost[1] / 1000}
+            self.make(path, json.dumps(result))
+        self.good("--merge", "out", "-o", "front", program=PROGRAM)
+        efficient = re.search("Efficient: (.*)", read(self.path("front/index.html")))[1]
+        self.assertEqual(re.findall("<bdi>(.)</bdi>", efficient), ["a", "b", "d"])
+        self.assertIn("(0.500 of the operations, 1.00 of the time, 1.00 steps)", efficient)
+
     def test_a_broken_result_is_judged_again(self):
         self.submit("a")
         self.lab5()
