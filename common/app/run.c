@@ -136,8 +136,8 @@ int example_main(const Example *example, int argc, char *argv[])
     Message message = {0};
     const Usage usage = options_usage(example);
 #ifdef M_TRIM_THRESHOLD
-    /* Mesa takes memory for a large mesh's vertices in each frame; given back to the system in
-     * between, it is cleared each time, in more than half of the frame's time. */
+    /* Else Mesa's memory for vertices is cleared in each frame of a large mesh, in half its time.
+     */
     mallopt(M_TRIM_THRESHOLD, 1 << 29);
 #endif
     for (int i = 0; example->parameters && example->parameters[i].name; i++)
