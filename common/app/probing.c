@@ -71,5 +71,6 @@ char *probing_pixel(Probing *probing, const ProbePlugin *plugin, const int pixel
         question.exact = &exact;
     char *text = read ? plugin->tell(&question, json, message) : NULL;
     free(exact.equation);
+    free(exact.terms);
     return text;
 }

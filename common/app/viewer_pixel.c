@@ -217,6 +217,7 @@ static void write_line(Viewer *viewer, const int at[2], const unsigned char draw
     if (!viewer->paused || !find_exact(viewer, at, &exact))
         return;
     free(exact.equation);
+    free(exact.terms);
     double steps[3];
     for (int i = 0; i < 3; i++) {
         steps[i] = 255 * fmin(fmax((double)exact.color[i], 0), 1);

@@ -1,6 +1,7 @@
 /* One ray through the pixel's centre, and the lighting equation where it ends. */
 #include "kinds/exact_light.h"
 
+#include "base/json_writer.h"
 #include "base/output_text.h"
 #include "reference/reference_explain.h"
 
@@ -10,76 +11,104 @@
 
 static const double RADIANS = 0.017453292519943295;
 
-/* A grey is one number. */
-static void put_color(FILE *file, const char *before, Vec3 color)
+/* The equation as a text, and as members of a JSON object. */
+typedef struct Writing {
+    FILE *file;
+    JsonWriter json;
+} Writing;
+
+/* A grey is one number of the text. */
+static void put_color(Writing *to, const char *name, const char *before, Vec3 color)
 {
     if (color.x == color.y && color.y == color.z)
-        fprintf(file, "%s%.6g", before, color.x);
+        fprintf(to->file, "%s%.6g", before, color.x);
     else
-        fprintf(file, "%s%.6g, %.6g, %.6g", before, color.x, color.y, color.z);
+        fprintf(to->file, "%s%.6g, %.6g, %.6g", before, color.x, color.y, color.z);
+    json_write_list(&to->json, name);
+    json_write_number(&to->json, NULL, color.x);
+    json_write_number(&to->json, NULL, color.y);
+    json_write_number(&to->json, NULL, color.z);
+    json_write_end(&to->json);
 }
 
 /* "diffuse: (1) * (0.5, 0.4, 0.1) * N.L 0.8 = 0.4, 0.32, 0.08"; nothing where a factor is black.
  */
-static void put_term(FILE *file, const char *name, const Vec3 factors[2], const char *rest,
+static void put_term(Writing *to, const char *name, const Vec3 factors[2], const char *rest,
                      Vec3 term)
 {
     if (color_is_black(factors[0]) || color_is_black(factors[1]))
         return;
-    fprintf(file, "%s: ", name);
-    put_color(file, "(", factors[0]);
-    put_color(file, ") * (", factors[1]);
-    fprintf(file, ")%s", rest);
-    put_color(file, " = ", term);
-    fputc('\n', file);
+    fprintf(to->file, "%s: ", name);
+    json_write_object(&to->json, name + strspn(name, " "));
+    put_color(to, "light", "(", factors[0]);
+    put_color(to, "material", ") * (", factors[1]);
+    fprintf(to->file, ")%s", rest);
+    put_color(to, "term", " = ", term);
+    fputc('\n', to->file);
+    json_write_end(&to->json);
 }
 
-static Vec3 put_light(FILE *file, const Explained *at, const ExplainLight *lit, int number)
+static Vec3 put_light(Writing *to, const Explained *at, const ExplainLight *lit, int number)
 {
     const Light *light = lit->light;
     const Material *material = &at->material;
+    const char *of = at->phong ? "R.V" : "N.H";
     char rest[100];
+    json_write_object(&to->json, NULL);
+    json_write_whole(&to->json, "light", number);
+    json_write_number(&to->json, "share", lit->share);
     if (lit->share <= 0) {
-        fprintf(file, "light %d, 0 of it arrives: %s\n", number,
+        fprintf(to->file, "light %d, 0 of it arrives: %s\n", number,
                 lit->outside ? "outside its cone" : "too far away");
+        json_write_end(&to->json);
         return (Vec3){0, 0, 0};
     }
-    fprintf(file, "light %d, %.6g of it arrives%s:\n", number, lit->share,
+    fprintf(to->file, "light %d, %.6g of it arrives%s:\n", number, lit->share,
             lit->hidden ? "; in shadow, which leaves the ambient term" : "");
-    put_term(file, "  ambient", (Vec3[]){light->ambient, material->ambient}, "", lit->ambient);
+    json_write_flag(&to->json, "hidden", lit->hidden);
+    json_write_number(&to->json, "N.L", lit->n_dot_l);
+    json_write_number(&to->json, of, lit->cosine);
+    json_write_number(&to->json, "exponent", material->shininess);
+    put_term(to, "  ambient", (Vec3[]){light->ambient, material->ambient}, "", lit->ambient);
     snprintf(rest, sizeof rest, " * N.L %.6g", lit->n_dot_l);
-    put_term(file, "  diffuse", (Vec3[]){light->diffuse, material->diffuse}, rest, lit->diffuse);
-    snprintf(rest, sizeof rest, " * (%s %.6g)^%.6g%s", at->phong ? "R.V" : "N.H", lit->cosine,
-             material->shininess, lit->n_dot_l > 0 ? "" : ", behind the surface");
-    put_term(file, "  specular", (Vec3[]){light->specular, material->specular}, rest,
-             lit->specular);
+    put_term(to, "  diffuse", (Vec3[]){light->diffuse, material->diffuse}, rest, lit->diffuse);
+    snprintf(rest, sizeof rest, " * (%s %.6g)^%.6g%s", of, lit->cosine, material->shininess,
+             lit->n_dot_l > 0 ? "" : ", behind the surface");
+    put_term(to, "  specular", (Vec3[]){light->specular, material->specular}, rest, lit->specular);
+    json_write_end(&to->json);
     const Vec3 sum =
         lit->hidden ? lit->ambient : vec3_add(lit->ambient, vec3_add(lit->diffuse, lit->specular));
     return vec3_scale(sum, lit->share);
 }
 
-static char *equation(const Explained *at, const Scene *scene, bool unlit)
+static void put_equation(const Explained *at, const Scene *scene, bool unlit, ExactPixel *exact)
 {
-    OutputText text;
+    OutputText text, terms;
     Vec3 sum = at->base;
     output_text_open(&text);
-    FILE *file = text.file;
+    output_text_open(&terms);
+    Writing to = {text.file, {.file = terms.file}};
+    json_write_object(&to.json, NULL);
     if (!color_is_black(at->material.emission)) {
-        put_color(file, "emission: ", at->material.emission);
-        fputc('\n', file);
+        put_color(&to, "emission", "emission: ", at->material.emission);
+        fputc('\n', to.file);
     }
     if (unlit) {
-        put_color(file, "diffuse colour, without lighting: ", at->base);
-        fputc('\n', file);
+        put_color(&to, "unlit", "diffuse colour, without lighting: ", at->base);
+        fputc('\n', to.file);
     } else
-        put_term(file, "global ambient", (Vec3[]){scene->global_ambient, at->material.ambient}, "",
+        put_term(&to, "global ambient", (Vec3[]){scene->global_ambient, at->material.ambient}, "",
                  vec3_subtract(at->base, at->material.emission));
+    json_write_list(&to.json, "lights");
     for (int i = 0; i < at->count; i++)
         sum = vec3_add(
-            sum, put_light(file, at, &at->lights[i], (int)(at->lights[i].light - scene->lights)));
-    put_color(file, "sum: ", sum);
-    fprintf(file, "%s\n", scene->linear ? ", which is encoded as sRGB" : "");
-    return output_text_close(&text);
+            sum, put_light(&to, at, &at->lights[i], (int)(at->lights[i].light - scene->lights)));
+    json_write_end(&to.json);
+    put_color(&to, "sum", "sum: ", sum);
+    fprintf(to.file, "%s\n", scene->linear ? ", which is encoded as sRGB" : "");
+    json_write_end(&to.json);
+    exact->equation = output_text_close(&text);
+    exact->terms = output_text_close(&terms);
 }
 
 /* What the directions are drawn with. */
@@ -119,7 +148,7 @@ void exact_light_tell(ExactPixel *exact, const Trace *trace, const Scene *scene,
         const double fovy = scene_fovy(&scene->camera, (double)place[2] / place[3]);
         const Pointer pointer = {trace, &said, 0.4 * tan(fovy / 2 * RADIANS) * said.depth, place[0],
                                  place[1]};
-        exact->equation = equation(&said, scene, unlit);
+        put_equation(&said, scene, unlit, exact);
         add_direction(exact, &pointer, "N", -1, said.normal);
         add_direction(exact, &pointer, "V", -1, said.viewer);
         for (int i = 0; i < said.count; i++) {

@@ -16,7 +16,8 @@ enum { EXACT_DIRECTIONS = 18 }; /* of more lights the first are kept */
 typedef struct ExactPixel {
     float color[3]; /* as a framebuffer without rounding has it */
     char object[64];
-    char *equation; /* the sum of light, term by term, in lines, for free(); NULL: no surface */
+    char *equation; /* the sum of light, term by term, in lines; NULL: no surface */
+    char *terms;    /* the same as JSON; both for free() */
     ExactDirection directions[EXACT_DIRECTIONS];
     int direction_count;
 } ExactPixel;

@@ -383,6 +383,7 @@ static void write_exact(JsonWriter *json, const ExactPixel *exact)
     if (!exact->equation)
         return;
     json_write_text(json, "equation", exact->equation);
+    json_write_value(json, "terms", exact->terms);
     json_write_list(json, "directions");
     for (int i = 0; i < exact->direction_count; i++) {
         const ExactDirection *direction = &exact->directions[i];

@@ -3,9 +3,8 @@
  * the lighting equation, named as in the book, or a variable of the shader; {NAME=} the line that assigns it; [...] is left out, and so
  * is the whole, where a name is not known; S(...) is added up over all lights or corners; after | is what else may be said. */
 const Terms = (() => {
-    const TERM = /^ *(global )?(ambient|diffuse|specular): \((.*?)\) \* \((.*?)\)(?: \* N\.L (\S+)| \* \((R\.V|N\.H) (\S+)\)\^([^\s,]+)(, behind)?.*?)? = (.*)$/;
-    const list = text => text.split(", ").map(Number);
     const number = x => String(+x.toPrecision(3)).replace("-", "−");
+    const grey = color => color.every(x => x === color[0]) ? [color[0]] : color;
     const put = value => typeof value === "string" ? value : value.length > 1 ? "(" + value.slice(0, 3).map(number).join(", ") + ")" :
         value[0] < 0 ? "(" + number(value[0]) + ")" : number(value[0]);
     const minus = (a, b) => a.map((x, i) => x - b[i]);
@@ -30,26 +29,24 @@ const Terms = (() => {
 
     /* Of the exact picture: the names of the whole, and of each light. */
     function equation(said, all) {
-        const lights = [];
-        for (const row of (said.equation || "").split("\n")) {
-            const light = /^light (\d+), (\S+) of it arrives(; in shadow)?/.exec(row), term = TERM.exec(row), other = /^(emission|sum): ([^, ]+(?:, [-\d][^, ]*)*)/.exec(row);
-            if (light)
-                lights.push({label: "light " + light[1], hidden: light[3], values: light[2] === "1" ? {} : {t: [Number(light[2])]}});
-            if (other)
-                all[other[1] === "sum" ? "I" : "e"] = list(other[2]);
-            if (!term)
-                continue;
-            const [, whole, kind, i, k, cosine, name, power, exponent, behind, sum] = term, of = kind[0], {hidden, values} = lights.at(-1) || {};
-            if (whole)
-                Object.assign(all, {g: list(i), k_g: list(k)});
-            else if (of === "a" || !hidden) {
-                Object.assign(values, {["i_" + of]: list(i), ["k_" + of]: list(k), ["I_" + of]: list(sum)});
-                if (cosine)
-                    values["N·L"] = [Number(cosine)];
-                if (name)
-                    Object.assign(values, {[name.replace(".", "·")]: [Number(power)], h: [Number(power)], α: [Number(exponent)], f: [behind ? 0 : 1]});
-            }
-        }
+        const {emission, sum, "global ambient": whole, lights: told = []} = said.terms || {};
+        if (emission)
+            all.e = grey(emission);
+        if (whole)
+            Object.assign(all, {g: grey(whole.light), k_g: grey(whole.material)});
+        if (sum)
+            all.I = grey(sum);
+        const lights = told.map(light => {
+            const values = light.share === 1 ? {} : {t: [light.share]}, cosine = ["R.V", "N.H"].find(name => name in light);
+            for (const of of light.hidden ? ["ambient"] : ["ambient", "diffuse", "specular"])
+                if (light[of])
+                    Object.assign(values, {["i_" + of[0]]: grey(light[of].light), ["k_" + of[0]]: grey(light[of].material), ["I_" + of[0]]: grey(light[of].term)});
+            if (values.i_d)
+                values["N·L"] = [light["N.L"]];
+            if (values.i_s)
+                Object.assign(values, {[cosine.replace(".", "·")]: [light[cosine]], h: [light[cosine]], α: [light.exponent], f: [light["N.L"] > 0 ? 1 : 0]});
+            return {label: "light " + light.light, values};
+        });
         for (const {name, vector} of said.directions || [])
             if (/\d/.test(name))
                 Object.assign(lights.find(({label}) => label === "light " + name.slice(1))?.values || {}, {[name[0]]: vector});

@@ -319,7 +319,7 @@ static bool tell_exact(int column, int row, ExactPixel *exact)
     if (!page.lab->solution_count)
         return true;
     if (exact->equation)
-        exact->equation[0] = '\0';
+        exact->equation[0] = exact->terms[0] = '\0';
     if (!page_expected(page.seconds))
         return false;
     memcpy(exact->color, page.exact.color + 3 * (row * SIZE + column), sizeof exact->color);
@@ -344,6 +344,7 @@ const char *page_probe(int column, int row)
     page.text = probe_open(&probe, &question, &page.message) ? probe_json(&probe) : NULL;
     probe_close(&probe);
     free(exact.equation);
+    free(exact.terms);
     return page.text ? page.text : "";
 }
 
