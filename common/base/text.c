@@ -90,6 +90,33 @@ const char *text_comment_end(const char *text)
     return end ? end + 2 : text + strlen(text);
 }
 
+/* What is so deep in parentheses. */
+static void leave_out(char *text, int depth)
+{
+    int open = 0;
+    char *to = text, *begin = text;
+    for (const char *at = text; *at; at++) {
+        if (*at == ')' && open-- == depth && to - begin > 3)
+            to = (char *)memcpy(begin, "...", 3) + 3;
+        *to++ = *at;
+        if (*at == '(' && ++open == depth)
+            begin = to;
+    }
+    *to = '\0';
+}
+
+void text_shorten(char *text, size_t most)
+{
+    for (int depth = 6; depth > 0 && strlen(text) > most; depth--)
+        leave_out(text, depth);
+    if (strlen(text) <= most)
+        return;
+    size_t end = most - 4;
+    while (end > 0 && text[end] != ' ')
+        end--;
+    memcpy(text + (end > 0 ? end : most - 4), " ...", 5);
+}
+
 void text_strip_comments(char *text)
 {
     char *to = text;

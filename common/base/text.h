@@ -27,6 +27,10 @@ bool text_is_quote(const char *line);
  * its end, or at the end of the text. NULL: no comment begins here. */
 const char *text_comment_end(const char *text);
 
+/* In place, leaves out what is in parentheses, the innermost first, then words at the end, until it
+ * has at most so many bytes: "dot(texture2D(...).rgb, vec3(...))". */
+void text_shorten(char *text, size_t most);
+
 /* In place, makes each comment a blank. */
 void text_strip_comments(char *text);
 

@@ -15,18 +15,12 @@ const Wrong = (() => {
         return at < 0 ? null : [at % drawn.width, Math.floor(at / drawn.width)];
     }
 
-    /* The texts with the change that `look` tells: spaces are written as one likes, and it may stand in the line twice. */
-    function* changed(texts, look) {
-        const [, line, file, was, by] = look.match(/^line (\d+) of ([\w.-]+): ([^]*); all is right with ([^]*)$/) || [];
-        if (!texts.has(file) || was.endsWith("..."))
-            return;
-        const lines = texts.get(file).split("\n"), start = lines.slice(0, line - 1).join("\n").length;
-        const words = was.replace(/^-(?=[\d.]+$)/, "").match(/\w+|\S/g).map(word => word.replace(/\W/g, "\\$&"));
-        const places = [...texts.get(file).matchAll(new RegExp(words.join("\\s*"), "g"))].filter(({index}) => index >= start).slice(0, 4);
-        const forms = by === "nothing there" ? [""] : ["(" + by + ")", by];
-        for (const {index, 0: found} of places)
-            for (const form of forms)
-                yield new Map(texts).set(file, texts.get(file).slice(0, index) + form + texts.get(file).slice(index + found.length));
+    /* The texts with the mistake's change; null: it has none. */
+    function changed(texts, {file, line, column, text, change}) {
+        if (!line)
+            return null;
+        const lines = texts.get(file).split("\n"), start = lines.slice(0, line - 1).join("\n").length + (line > 1) + column - 1;
+        return new Map(texts).set(file, texts.get(file).slice(0, start) + change + texts.get(file).slice(start + text.length));
     }
 
     const apart = (a, b) => Math.max(...a.slice(0, 3).map((x, i) => 255 * Math.abs(Math.min(1, Math.max(0, x)) - Math.min(1, Math.max(0, b[i])))));
@@ -67,15 +61,17 @@ const Wrong = (() => {
         if (!own?.exact_picture)
             return [];
         const where = `Column ${pixel[0]}, row ${pixel[1]}: `;
-        for (const {look} of mistakes)
-            for (const mended of changed(texts, look)) {
-                const right = await probe(mended), value = right?.assignments && own.assignments && first(own, right);
-                if (!value || apart(right.computed, right.exact_picture) > NEAR)
-                    continue;
+        /* Of two mistakes the later one is changed first, so that places stay. */
+        const all = [...mistakes].sort((a, b) => b.line - a.line || b.column - a.column);
+        const mended = all.reduce((done, mistake) => done && changed(done, mistake), texts);
+        if (mended) {
+            const right = await probe(mended), value = right?.assignments && own.assignments && first(own, right);
+            if (value && apart(right.computed, right.exact_picture) <= NEAR) {
                 const said = `${where}${value.place}: ${value.name} is ${text(value.own)}; in a right program it is ${text(value.right)}.`;
                 return [element("p", {class: "first"}, said), element("div", {class: "pictures"},
                     await picture(task(texts), value.name, "Yours"), await picture(task(mended), value.name, "Right"))];
             }
+        }
         return [element("p", {class: "first"}, `${where}it is ${own.drawn.map(x => Math.round(255 * x)).join(", ")}; ` +
                         `right is ${own.exact_picture.map(x => Math.round(255 * Math.min(1, Math.max(0, x)))).join(", ")}.`)];
     }

@@ -113,6 +113,21 @@ TEST(the_nearest_name_has_the_fewest_edits)
     text_nearest(endless, names); /* whatever it finds, it must return */
 }
 
+TEST(what_is_shortened_keeps_its_parentheses)
+{
+    static const char *const cases[][2] = {
+        {"dot(a(b + c), d)", "dot(a(b + c), d)"},
+        {"dot(first(b + c).rgb, second)", "dot(first(...).rgb, second)"},
+        {"first for dot(b, c) + sum", "first for dot(...) + sum"},
+        {"a word and another and more words", "a word and another and ..."}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char text[64];
+        snprintf(text, sizeof text, "%s", cases[i][0]);
+        text_shorten(text, i == 2 ? 24 : 28);
+        assert_string_equal(text, cases[i][1]);
+    }
+}
+
 TEST(numbers_at_their_places)
 {
     int n[3] = {0};

@@ -353,6 +353,50 @@ class Holes(Labs):
             for name, said in zip(names, named(result)):
                 self.assertTrue(said.startswith(name), (edits, result["message"]))
 
+    def test_shadows_that_are_filtered(self):
+        """Named in the student's words; what is changed as the fields say is right."""
+        cases = {
+            "wa1": "p.z + 0.004 for (p.z - 0.004)",
+            "wa2": "8.0 for 9.0",
+            "wc1": "no bias: place.z",
+            "wa4": "not divided by the map's size: ",
+            "wa6": "sun() on the ambient light, too",
+            "wa7": "not asked: what is beside the map, by depthOf(",
+            "wb3": "arguments of step swapped",
+            "wb4": "not mapped to 0 to 1: vShadow.z / vShadow.w",
+            "wc4": "one channel of the depth: texture2D(u_ShadowMap, place).r",
+            "wd1": "amount for (1.0 - amount)",
+        }
+        cases = dict(list(cases.items())[:: base.step(5)])
+        given = [{name: text.decode() for name, text in corpus.read(11)[case].items() if name != "label"} for case in cases]
+        results = in_parallel(check_texts, [(11, texts, 4) for texts in given])
+        mended = [self.changed(texts, result["mistakes"]) for texts, result in zip(given, results)]
+        for case, result, after in zip(cases, results, in_parallel(check_texts, [(11, texts, 5) for texts in mended])):
+            self.assertTrue(result["message"].startswith(cases[case]), (case, result["message"]))
+            self.assertEqual(after["verdict"], "right", (case, after["message"]))
+            self.assertTrue(any(said.startswith("Wrong first, where it is worst") for said in result["symptoms"]), (case, result["symptoms"]))
+
+    def changed(self, texts, said):
+        """With each mistake's change, the last first."""
+        for one in sorted(said, key=lambda one: (-one["line"], -one["column"])):
+            lines = texts[one["file"]].split("\n")
+            start = sum(len(line) + 1 for line in lines[: one["line"] - 1]) + one["column"] - 1
+            self.assertEqual(texts[one["file"]][start : start + len(one["text"])], one["text"], one)
+            texts = {**texts, one["file"]: texts[one["file"]][:start] + one["change"] + texts[one["file"]][start + len(one["text"]) :]}
+        return texts
+
+    def test_two_mistakes_have_their_places(self):
+        texts = mistakes.pair(6, "not renormalized per fragment", "reflect's sign")
+        result = check_texts(6, texts, 3)
+        self.assertEqual(len(result["mistakes"]), 2, result["message"])
+        self.assertEqual(check_texts(6, self.changed(texts, result["mistakes"]), 3)["verdict"], "right")
+        self.assertIn("Wrong first, where it is worst", " ".join(result["symptoms"]))
+
+    def test_matrices_have_their_line(self):
+        texts = {"matrices.c": corpus.read(3)["wf1"]["matrices.c"].decode()}
+        look = check_texts(3, texts, 3)["mistakes"][0]["look"]
+        self.assertRegex(look, r"^line 11 of matrices\.c: .*transpose")
+
     def test_light_that_is_clamped_before_the_colour(self):
         for lab, limit in ((4, "0.95"), (2, "1.0"), (5, "0.98"))[: None if base.LONG else 0]:
             out = mistakes.OUT[lab]

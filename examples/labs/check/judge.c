@@ -290,7 +290,8 @@ static bool explain(Session *session, const char *numbers, Message *message)
         return true;
     }
     if (session->lab->given) {
-        matrices_name(&session->pictures, verdict);
+        matrices_name(&session->pictures, submission_file(session->files, session->lab->code),
+                      verdict);
     } else if (numbers[0]) {
         if (text_has_word(session->files, "gl_FragCoord"))
             blame(verdict, "", SIZE);

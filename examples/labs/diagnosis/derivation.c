@@ -3,6 +3,7 @@
 #include "labs/diagnosis/derivation.h"
 
 #include "base/memory.h"
+#include "base/text.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -127,12 +128,13 @@ void derivation_place(const Derivation *all, GlslStage stage, int node, char *te
     const int file =
         at->place.file >= 0 && at->place.file < source->file_count ? at->place.file : 0;
     const char *path = source->file_count ? source->files[file] : "", *slash = strrchr(path, '/');
-    char code[80];
+    char code[512];
     const bool named = at->kind == GLSL_VARIABLE_NODE;
     const int shown = named || at->kind == GLSL_EXPRESSION ? at->first
                       : at->kind == GLSL_LITERAL           ? parent_of(tree, node)
                                                            : node;
     glsl_expression_text(tree, shown, code, sizeof code);
+    text_shorten(code, 76);
     snprintf(text, size, "line %d of %s: %s%s%s", at->place.line, slash ? slash + 1 : path,
              named ? tree->symbols[at->symbol].name : "", named ? " = " : "", code);
 }
@@ -156,6 +158,31 @@ static void join_lines(char *text)
     *to = '\0';
 }
 
+/* Functions that the submission has as they are in the starter. */
+static void find_given(Derivation *all, int stage)
+{
+    char folder[PATH_MAX];
+    const ShaderLoader loader = {.folder = folder, .precision = "highp"};
+    const GlslTree *own = all->own[stage].tree;
+    ShaderSource source;
+    if (!lab_folder(all->lab, folder, NULL) ||
+        !derivation_read(all->lab, &loader, "", stage, "", &source))
+        return;
+    GlslTree *starter = glsl_parse(source.text, (GlslStage)stage, NULL);
+    char *whole = glsl_print(starter, starter->root);
+    for (int i = own->nodes[own->root].first; i && all->given_count[stage] < MAX_GIVEN;
+         i = own->nodes[i].next) {
+        char *text = glsl_print(own, i);
+        const bool function = own->nodes[i].kind == GLSL_FUNCTION_NODE;
+        if (function && own->nodes[i].symbol != own->main && strstr(whole, text))
+            all->given[stage][all->given_count[stage]++] = i;
+        free(text);
+    }
+    free(whole);
+    glsl_tree_free(starter);
+    shader_source_close(&source);
+}
+
 static bool open_own(Derivation *all, const SubmissionFiles *files)
 {
     const ShaderLoader loader = {.texts = files->texts, .only_texts = true, .precision = "highp"};
@@ -165,6 +192,7 @@ static bool open_own(Derivation *all, const SubmissionFiles *files)
         join_lines(all->sources[i].text);
         if (!point_shader_open(&all->own[i], all->sources[i].text, (GlslStage)i))
             return false;
+        find_given(all, i);
     }
     return true;
 }
@@ -200,6 +228,7 @@ Derivation *derivation_open(const LabPictures *pictures, const SubmissionFiles *
 {
     Derivation *all = memory_new(1, sizeof *all);
     all->lab = pictures->lab;
+    all->files = files;
     all->pictures = pictures;
     /* Half a step is for rounding. A shadow is all or nothing. */
     all->tolerance = pictures->lab->shadow ? DERIVATION_EQUAL

@@ -10,7 +10,7 @@
 #include "labs/diagnosis/points.h"
 #include "labs/submission/verdict.h"
 
-enum { TRACED = 6, MAX_VALUES = 400, MAX_RIGHTS = 8 };
+enum { TRACED = 6, MAX_VALUES = 400, MAX_RIGHTS = 8, MAX_GIVEN = 4 };
 
 /* Equal formulas differ by 1e-12, with attributes in floats by 1e-7, with constants like 3.14159 by
  * more. A highlight that nearly vanishes is 1e-4 from one that does. */
@@ -37,6 +37,7 @@ typedef struct Derivation {
     double tolerance; /* of what is right, at points */
     int drawn;        /* how many changes were */
     Points points;
+    const SubmissionFiles *files;
     PointShader own[2], right[2]; /* by GlslStage */
     ShaderSource sources[2];      /* the submission's */
     Numbers wanted, exact;        /* the submission's, and those of the right program */
@@ -53,8 +54,9 @@ typedef struct Derivation {
     int number_count, own_number_count; /* as they are in the submission */
     double right_numbers[MUTATION_NUMBERS];
     int right_number_count;
-    char *undeclared[2];       /* uniforms that the submission's stages lack */
-    GlslStage stage;           /* that is mutated */
+    int given[2][MAX_GIVEN], given_count[2]; /* functions of the submission, the starter's */
+    char *undeclared[2];                     /* uniforms that the submission's stages lack */
+    GlslStage stage;                         /* that is mutated */
     Found best;                /* of those that compute the same; its text is NULL: none does */
     bool unique;               /* no other has as many of the submission's values */
     Found mending;             /* the change of the submission that makes it right, if `mended` */
@@ -128,6 +130,9 @@ bool mend_passes(Derivation *all, const char *const texts[2]);
 /* Whether a node is another, or below it. */
 bool mend_holds(const GlslTree *tree, int node, int wanted);
 
+/* Whether a change of the submission is one of what the starter gave, which is right. */
+bool mend_is_given(const Derivation *all, const Mutation *mutation);
+
 /* Finds how many of the submission's values a mutant of the right program has on its way, and how
  * alike the texts are. */
 void derive_compare_values(Derivation *all, Found *found);
@@ -163,6 +168,9 @@ bool values_is_wrong(const Values *own, int number, const Values *mutant, const 
 /* How often operations, built-in functions, uniforms and numbers occur more in one than in the
  * other. */
 int values_count_other(const GlslTree *a, const GlslTree *b);
+
+/* Fills in which of the student's text a change replaces, and by what: not where a macro is. */
+void change_take_text(const Derivation *all, const Found *found, VerdictMistake *mistake);
 
 /* "line 14 of lab06.frag, float d = dot(n, l)". */
 void derivation_place(const Derivation *all, GlslStage stage, int node, char *text, size_t size);

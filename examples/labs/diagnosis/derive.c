@@ -53,12 +53,23 @@ static void take_own_numbers(Derivation *all)
 /* Those of a right program, of formulas that can be written in another way, and what is usual. */
 static void take_right_numbers(Derivation *all)
 {
+    enum { FEW = 32 };
     static const double USUAL[] = {2, 0.5};
     for (int i = 0; i < 2; i++)
         take_number(all->right_numbers, &all->right_number_count, USUAL[i]);
     for (int i = 0; i < 2; i++)
         take_numbers(all->right[i].tree, all->right[i].tree->root, all->right_numbers,
                      &all->right_number_count);
+    /* What is counted is wrong by one: 8 or 1 / 8 for nine, 9 for 4 * 4. */
+    for (int i = 0; i < all->own_number_count; i++) {
+        const double number = all->numbers[i], whole = number < 1 ? 1 / number : number;
+        const double root = sqrt(whole), wanted[] = {whole - 1, whole + 1, (root - 1) * (root - 1),
+                                                     (root + 1) * (root + 1)};
+        for (int k = 0; k < 4 && whole > 1.5 && whole < FEW && whole == rint(whole); k++)
+            if (k < 2 || root == rint(root))
+                take_number(all->right_numbers, &all->right_number_count,
+                            number < 1 ? 1 / wanted[k] : wanted[k]);
+    }
 }
 
 typedef struct Apart {
@@ -265,40 +276,39 @@ static void find_place(Derivation *all, const Found *found)
     free(values);
 }
 
-static void add(const char *name, const Mutation *mutation, const char *place, double sure,
-                Verdict *verdict)
+/* After a colon the right program's words become the submission's, if the place is known. */
+static void add(const Mutation *mutation, const char *place, double sure, Verdict *verdict)
 {
-    char short_name[64], sentence[VERDICT_SENTENCE_SIZE];
-    snprintf(short_name, sizeof short_name, "%.63s", name);
+    char name[VERDICT_SENTENCE_SIZE], sentence[VERDICT_SENTENCE_SIZE];
+    const char *colon = strstr(mutation->name, ": "), *own = strstr(place, ": ");
+    snprintf(name, sizeof name, "%.*s%.250s",
+             (int)(colon && own ? colon - mutation->name : MUTATION_TEXT), mutation->name,
+             colon && own ? own : "");
     snprintf(sentence, sizeof sentence,
              "%s%sIt draws what the right program draws with %s instead of %s.", mutation->sentence,
              mutation->sentence[0] ? " " : "", mutation->by[0] ? mutation->by : "nothing",
              mutation->was);
-    verdict_add_mistake(verdict, short_name, sentence, place, sure);
+    verdict_add_mistake(verdict, name, sentence, place, sure);
 }
 
 /* The line that has to change, and to what. */
 static void say_mending(Derivation *all, const Found *found, Verdict *verdict)
 {
-    const Found *best = &all->best;
-    const Mutation *mending = &found->mutation;
+    const Mutation *mending = &found->mutation, *best = &all->best.mutation;
+    const bool sole = all->mended_twice ? all->unique : all->mending.apart <= EQUAL;
+    const bool known = all->best.text && best->general && all->unique && all->mended_there;
     char place[VERDICT_SENTENCE_SIZE], sentence[VERDICT_SENTENCE_SIZE], look[VERDICT_SENTENCE_SIZE];
     derivation_place(all, found->stage, mending->node, place, sizeof place);
-    snprintf(look, VERDICT_SENTENCE_SIZE, "%.250s; all is right with %s%s", place,
+    snprintf(look, sizeof look, "%.250s; all is right with %s%s", place,
              mending->by[0] ? mending->by : "nothing there",
              all->mended_twice ? " and the other change" : "");
-    const bool sole = all->mended_twice ? all->unique : all->mending.apart <= EQUAL;
-    const double sure = sole ? UNIQUE : ONE_OF_SEVERAL;
-    if (best->text && best->mutation.general && all->unique) {
-        add(best->mutation.name, &best->mutation, look, UNIQUE, verdict);
-        return;
-    }
-    char name[64];
-    snprintf(name, sizeof name, "%.63s", mending->mends);
-    snprintf(sentence, sizeof sentence, "It draws what is right with %s instead of %s%s.",
+    snprintf(sentence, sizeof sentence, "%s%sIt draws what is right with %s instead of %s%s.",
+             known ? best->sentence : "", known && best->sentence[0] ? " " : "",
              mending->by[0] ? mending->by : "nothing", mending->was,
              all->mended_twice ? ", once the other mistake is mended, too" : "");
-    verdict_add_mistake(verdict, name, sentence, look, sure);
+    change_take_text(all, found,
+                     verdict_add_mistake(verdict, mending->mends, sentence, look,
+                                         known || sole ? UNIQUE : ONE_OF_SEVERAL));
 }
 
 /* Whether the first wrong value is known, and not just the result. */
@@ -312,13 +322,15 @@ static bool is_inside(const Derivation *all)
     return all->place_node && !symbol->built_in && symbol->storage != GLSL_VARYING;
 }
 
+/* A change elsewhere than at the first wrong value makes up for a mistake, but of a shadow, which a
+ * function returns. */
 static void say(Derivation *all, Verdict *verdict)
 {
     const Found *found = all->two_found ? &all->second : &all->best;
     const double sure = all->unique ? UNIQUE : ONE_OF_SEVERAL;
     char look[VERDICT_SENTENCE_SIZE];
     const bool other = found->text && found->mutation.general && all->unique && is_inside(all);
-    if (all->mended_twice || (all->mended && (all->mended_there || !other))) {
+    if (all->mended_twice || (all->mended && (all->mended_there || !other || all->lab->shadow))) {
         say_mending(all, &all->mending, verdict);
         if (all->mended_twice)
             say_mending(all, &all->second, verdict);
@@ -328,12 +340,15 @@ static void say(Derivation *all, Verdict *verdict)
         else
             snprintf(look, sizeof look, "where %s should be", found->mutation.was);
         if (found->first)
-            add(found->first->mutation.name, &found->first->mutation, look, sure, verdict);
-        add(found->mutation.name, &found->mutation, look, sure, verdict);
+            add(&found->first->mutation, look, sure, verdict);
+        add(&found->mutation, look, sure, verdict);
     }
+    const bool same = found->first && found->first->mutation.rank == found->mutation.rank;
     snprintf(verdict->message, sizeof verdict->message, "%s%s%s%s",
-             verdict->mistake_count > 1 ? "Two mistakes: " : "", verdict->mistakes[0].name,
-             verdict->mistake_count > 1 ? "; " : "",
+             verdict->mistake_count < 2 ? ""
+             : same                     ? "Twice the same mistake: "
+                                        : "Two mistakes: ",
+             verdict->mistakes[0].name, verdict->mistake_count > 1 ? "; " : "",
              verdict->mistake_count > 1 ? verdict->mistakes[1].name : "");
 }
 

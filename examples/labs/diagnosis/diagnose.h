@@ -24,8 +24,8 @@ bool outline_check(const LabPictures *pictures, const Painter *painter, Canvas *
 bool matrices_are_right(const LabPictures *pictures, char said[VERDICT_SENTENCE_SIZE]);
 
 /* Fills in the message, and the mistakes if the matrices are those of another formula, or a product
- * of the task's form in which one part has wrong numbers. */
-void matrices_name(const LabPictures *pictures, Verdict *verdict);
+ * of the task's form in which one part has wrong numbers. `code`: the submission's, or NULL. */
+void matrices_name(const LabPictures *pictures, const char *code, Verdict *verdict);
 
 /* A wrong picture in words. */
 

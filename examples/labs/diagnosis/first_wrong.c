@@ -15,53 +15,59 @@ static void put_numbers(const double *numbers, int count, char text[80])
         used += snprintf(text + used, 80 - (size_t)used, "%s%.4g", i ? ", " : "", numbers[i]);
 }
 
-static char *change(Derivation *all, const Mutation *mending)
+/* Where the point is in its picture, if that is known: a scene of each seed's. */
+static void put_place(const Derivation *all, int point, char text[100])
 {
-    GlslNode was;
-    GlslTree *tree = all->own[all->stage].tree;
-    char put[MUTATION_TEXT + 3];
-    snprintf(put, sizeof put, mending->by[0] ? "(%s)" : "", mending->by);
-    mutation_put(tree, mending->node, put, &was);
-    char *body = glsl_print(tree, tree->root);
-    mutation_take_back(tree, mending->node, &was);
-    char *text = right_declare(all->undeclared[all->stage], body);
-    free(body);
-    return text;
+    const PointSetting *setting = &all->points.settings[all->points.items[point].setting];
+    double place[3];
+    points_place(&all->points, point, place);
+    if (setting->scene)
+        snprintf(text, 100, ", in scene %s (known), column %d, row %d from the top", setting->scene,
+                 (int)(setting->width * (place[0] + 1) / 2),
+                 (int)(setting->height * (1 - place[1]) / 2));
 }
 
+/* Two changes of one stage are both in the second's text. */
 void first_wrong_find(Derivation *all, Verdict *verdict, FirstWrong *first)
 {
-    PointShader mended, *pair[2] = {&all->own[0], &all->own[1]};
+    const Found *changes[2] = {&all->mending, all->mended_twice ? &all->second : NULL};
+    PointShader opened[2] = {{.setting = -1}, {.setting = -1}};
+    PointShader *pair[2] = {&all->own[0], &all->own[1]};
     Values *own = memory_new(2, sizeof *own), *right = own + 1;
+    const char *text = NULL;
     bool other = false;
-    all->stage = all->mending.stage;
-    char *text = change(all, &all->mending.mutation);
-    if (!all->mended_twice && point_shader_open(&mended, text, all->stage)) {
-        pair[all->stage] = &mended;
-        values_trace(&all->points, &all->own[0], &all->own[1], all->order[0], own);
-        values_trace(&all->points, pair[0], pair[1], all->order[0], right);
-        point_shader_close(&mended);
+    for (int i = 0; i < 2 && changes[i]; i++) {
+        all->stage = changes[i]->stage;
+        if (mend_open(all, changes[i]->text, true, &opened[i]))
+            pair[all->stage] = &opened[i];
+        text = changes[i]->text;
     }
+    values_trace(&all->points, &all->own[0], &all->own[1], all->order[0], own);
+    values_trace(&all->points, pair[0], pair[1], all->order[0], right);
     for (int i = 0; i < own->count && i < right->count && !other; i++) {
         const double *numbers = own->items[i].numbers, *wanted = right->items[i].numbers;
         const GlslStage stage = own->items[i].stage;
         const char *name = all->own[stage].tree->symbols[own->items[i].symbol].name;
         const int size = own->items[i].size;
-        char place[VERDICT_SENTENCE_SIZE], is[80], should[80];
+        char place[VERDICT_SENTENCE_SIZE], where[100] = "", is[80], should[80];
         for (int k = 0; k < size; k++)
             other |= fabs(numbers[k] - wanted[k]) > 1e-4 * fmax(1, fabs(wanted[k]));
         if (!other || strncmp(name, "gl_", 3) == 0)
             continue;
+        put_place(all, all->order[0], where);
         put_numbers(numbers, size, is);
         put_numbers(wanted, size, should);
         derivation_place(all, stage, own->items[i].node, place, sizeof place);
         verdict_add_symptom(verdict,
-                            "Wrong first, where it is worst: %s is %s; right is %s. See %s.", name,
-                            is, should, place);
-        *first = (FirstWrong){.stage = (int)all->mending.stage, .right = text};
+                            "Wrong first, where it is worst%s: %s is %s; right is %s. See %s.",
+                            where, name, is, should, place);
+        if (changes[1] && changes[0]->stage != changes[1]->stage) /* no single shader is right */
+            continue;
+        *first = (FirstWrong){.stage = (int)all->stage,
+                              .right = right_declare(all->undeclared[all->stage], text)};
         snprintf(first->name, sizeof first->name, "%s", name);
     }
-    if (!first->right)
-        free(text);
+    point_shader_close(&opened[0]);
+    point_shader_close(&opened[1]);
     free(own);
 }

@@ -5,6 +5,7 @@
  * products than the right one are formulas, which are computed and compared. */
 #include "labs/diagnosis/diagnose.h"
 
+#include "base/text.h"
 #include "core/example.h"
 
 #include <ctype.h>
@@ -313,8 +314,33 @@ static const Form *find_form(const LabPictures *pictures, int of, bool *right)
     return NULL;
 }
 
+/* The last line where lab_matrices uses this one of its results, where it was set; 0: not known. */
+static int line_of(const char *code, int of)
+{
+    const char *name = code ? strstr(code, "lab_matrices") : NULL;
+    int line = 1, found = 0;
+    size_t length = 0;
+    for (int i = 0; i <= of && name; i++)
+        name = strchr(name + 1, '*');
+    for (name += name != NULL; name && text_is_word(name[length]);)
+        length++;
+    for (const char *at = code; length > 0 && *at; line += *at++ == '\n')
+        if (at > name && !text_is_word(at[-1]) && !text_is_word(at[length]) &&
+            strncmp(at, name, length) == 0)
+            found = line;
+    return found;
+}
+
+static void blame(Verdict *verdict, const Lab *lab, const char *code, int of, const Form *what)
+{
+    char look[VERDICT_SENTENCE_SIZE];
+    const int line = line_of(code, of);
+    snprintf(look, sizeof look, "line %d of %s: %s", line, lab->code, what->look);
+    verdict_add_mistake(verdict, what->name, what->sentence, line ? look : what->look, 0.9);
+}
+
 /* The model matrix taken apart. */
-static bool name_facts(const LabPictures *pictures, Verdict *verdict)
+static bool name_facts(const LabPictures *pictures, const char *code, Verdict *verdict)
 {
     char sentence[VERDICT_SENTENCE_SIZE];
     const Facts facts = gather_facts(pictures);
@@ -323,27 +349,23 @@ static bool name_facts(const LabPictures *pictures, Verdict *verdict)
         if ((facts.true_of_all & rule->all) != rule->all || (facts.true_of_all & rule->none))
             continue;
         say(rule, &facts, sentence);
-        verdict_add_mistake(verdict, rule->name, sentence, rule->look, 0.9);
+        blame(verdict, pictures->lab, code, MODEL,
+              &(Form){.name = rule->name, .sentence = sentence, .look = rule->look});
         return true;
     }
     return false;
 }
 
-static void add_form(const Form *form, Verdict *verdict)
-{
-    verdict_add_mistake(verdict, form->name, form->sentence, form->look, 0.9);
-}
-
-void matrices_name(const LabPictures *pictures, Verdict *verdict)
+void matrices_name(const LabPictures *pictures, const char *code, Verdict *verdict)
 {
     bool model, normal;
     const Form *const of_model = find_form(pictures, MODEL, &model);
     const Form *const of_normal = find_form(pictures, NORMAL, &normal);
-    const bool told = model || of_model || name_facts(pictures, verdict);
+    const bool told = model || of_model || name_facts(pictures, code, verdict);
     if (of_model)
-        add_form(of_model, verdict);
+        blame(verdict, pictures->lab, code, MODEL, of_model);
     if (of_normal && told)
-        add_form(of_normal, verdict);
+        blame(verdict, pictures->lab, code, NORMAL, of_normal);
     const VerdictMistake *said = verdict->mistakes;
     const char *const unknown = normal || of_normal ? "Unknown mistake in the model matrix"
                                 : told              ? "Unknown mistake in the normal matrix"

@@ -70,6 +70,20 @@ bool mend_holds(const GlslTree *tree, int node, int wanted)
     return found;
 }
 
+bool mend_is_given(const Derivation *all, const Mutation *mutation)
+{
+    bool given = false;
+    for (int i = 0; i < all->given_count[all->stage]; i++)
+        given |= mend_holds(all->own[all->stage].tree, all->given[all->stage][i], mutation->node);
+    return given;
+}
+
+/* Of a shadow anything of two values may become right by chance: a computation is no variable. */
+static bool loses(const Derivation *all, const Mutation *mutation)
+{
+    return all->lab->shadow && strchr(mutation->was, '(') && !strpbrk(mutation->by, "(.");
+}
+
 /* Whether it is where the first value is that is wrong, if that is known. */
 static bool is_there(const Derivation *all, const Found *found)
 {
@@ -110,7 +124,8 @@ static bool try_change(void *context, const Mutation *mutation, const char *text
     Derivation *all = context;
     PointShader shader, *pair[2] = {&all->own[0], &all->own[1]};
     Found found = {.mutation = *mutation, .stage = all->stage};
-    if (all->mended && compare(all, &found, &all->mending) >= 0)
+    if (mend_is_given(all, mutation) || loses(all, mutation) ||
+        (all->mended && compare(all, &found, &all->mending) >= 0))
         return true;
     if (!mend_open(all, text, true, &shader))
         return true;
@@ -120,7 +135,9 @@ static bool try_change(void *context, const Mutation *mutation, const char *text
     texts[all->stage] = text;
     if (found.apart <= all->tolerance &&
         (!all->mended || compare(all, &found, &all->mending) < 0) && mend_passes(all, texts)) {
+        free(all->mending.text);
         all->mending = found;
+        all->mending.text = memory_text(text);
         all->mended = true;
     }
     point_shader_close(&shader);

@@ -5,13 +5,14 @@
 #include "labs/diagnosis/mutation.h"
 
 #include "base/memory.h"
+#include "base/text.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* Of rules for all expressions of a type. */
-enum { ANY_FLOAT = 100, ANY_VEC3, ANY_NAME, ANY_BOTH };
+enum { ANY_FLOAT = 100, ANY_VEC3, ANY_NAME, ANY_BOTH, ANY_VEC2 };
 
 typedef struct Rule {
     int kind, op; /* `op`: of a built-in function its number, -1: any */
@@ -190,6 +191,17 @@ static bool is_fresh(Maker *maker, const char *by)
     return true;
 }
 
+/* "a for b", each of them whole or shortened. */
+static void put_exchange(Mutation *mutation)
+{
+    char was[MUTATION_TEXT], by[MUTATION_TEXT];
+    memcpy(was, mutation->was, sizeof was);
+    memcpy(by, mutation->by, sizeof by);
+    text_shorten(was, MUTATION_TEXT / 2 - 4);
+    text_shorten(by, MUTATION_TEXT / 2 - 4);
+    snprintf(mutation->mends, sizeof mutation->mends, "%.96s for %.96s", was, by);
+}
+
 static void make(Maker *maker, int rule)
 {
     Mutation mutation = {.node = maker->node,
@@ -206,13 +218,12 @@ static void make(Maker *maker, int rule)
         !is_fresh(maker, by))
         return;
     fill(maker, RULES[rule].name, false, mutation.name, sizeof mutation.name);
-    snprintf(mutation.was, sizeof mutation.was, "%.159s", maker->operands[0]);
-    snprintf(mutation.by, sizeof mutation.by, "%.159s", by);
+    snprintf(mutation.was, sizeof mutation.was, "%.199s", maker->operands[0]);
+    snprintf(mutation.by, sizeof mutation.by, "%.199s", by);
     if (RULES[rule].mends[0])
         fill(maker, RULES[rule].mends, false, mutation.mends, sizeof mutation.mends);
     else
-        snprintf(mutation.mends, sizeof mutation.mends, "%.70s for %.70s", mutation.was,
-                 mutation.by);
+        put_exchange(&mutation);
     /* A statement is followed by its semicolon; within an expression anything is grouped. */
     const GlslNode *node = &maker->tree->nodes[maker->node];
     const bool whole = node->kind == GLSL_EXPRESSION || node->kind == GLSL_ASSIGN;
@@ -289,6 +300,8 @@ static bool matches(const GlslTree *tree, const GlslNode *node, const Rule *rule
         return node->type == GLSL_FLOAT && !literal;
     case ANY_VEC3:
         return node->type == GLSL_VEC3 && !literal;
+    case ANY_VEC2:
+        return node->type == GLSL_VEC2 && !literal;
     case ANY_BOTH:
         return (node->type == GLSL_VEC3 || node->type == GLSL_FLOAT) && !literal;
     case ANY_NAME:

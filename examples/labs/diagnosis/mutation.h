@@ -10,7 +10,7 @@
 
 #include "glsl/glsl.h"
 
-enum { MUTATION_TEXT = 160, MUTATION_NUMBERS = 16 };
+enum { MUTATION_TEXT = 200, MUTATION_NUMBERS = 16 };
 
 typedef struct Mutation {
     int node;                                   /* of the tree */

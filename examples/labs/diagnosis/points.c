@@ -98,26 +98,27 @@ static const unsigned char *texel_of(const PointSetting *setting, double x, doub
     return setting->map + 4 * ((size_t)texel_at(y) * LAB_SHADOW_MAP_SIZE + (size_t)texel_at(x));
 }
 
-/* Whether some texels away there is another surface before the light: where filters and biases, all
- * of them right, differ. */
+/* Whether right programs differ there: some texels away another surface is before the light, or
+ * beside the very texel the depth is nearly that of the point, so that biases and filters decide.
+ */
 static bool is_at_edge_of_shadow(const PointSetting *setting, const Point *point)
 {
-    static const double REACH = 6.0 / LAB_SHADOW_MAP_SIZE, JUMP = 0.01;
+    static const double TEXELS[] = {6, 2, 1.5}, LEAST[] = {0.01, 0.01, 0.001};
+    static const double MOST[] = {0.01, 0.01, 0.006};
     const MeshVertex center = middle(point);
     double world[4], clip[4];
     bool lit = false, dark = false;
     multiply(value_of(setting, "u_ModelMatrix"), center.position, world);
     const float place[3] = {(float)world[0], (float)world[1], (float)world[2]};
     multiply(value_of(setting, "u_LightMatrix"), place, clip);
-    for (int i = 0; i < 18; i++) { /* far and near */
-        const double reach = i < 9 ? REACH : REACH / 3;
+    for (int i = 0; i < 27; i++) {
+        const double reach = TEXELS[i / 9] / LAB_SHADOW_MAP_SIZE;
         const unsigned char *texel =
             texel_of(setting, 0.5 * clip[0] / clip[3] + 0.5 + (i % 3 - 1) * reach,
                      0.5 * clip[1] / clip[3] + 0.5 + (i / 3 % 3 - 1) * reach);
-        const double nearest = texel[0] / 255.0 + texel[1] / 65025.0;
-        const bool hidden = nearest < 0.5 * clip[2] / clip[3] + 0.5 - JUMP;
-        dark |= hidden;
-        lit |= !hidden;
+        const double behind = 0.5 * clip[2] / clip[3] + 0.5 - texel[0] / 255.0 - texel[1] / 65025.0;
+        dark |= behind > LEAST[i / 9];
+        lit |= behind <= MOST[i / 9];
     }
     return lit && dark;
 }
@@ -159,6 +160,7 @@ static bool add_scene(Points *points, const LabScene *lab_scene, const Mesh *mes
                              .own = lab_scene->own};
         *setting = (PointSetting){
             .width = lab_scene->width, .height = lab_scene->height, .color = {0, 0, 0, 1}};
+        setting->scene = lab_scene->known ? LAB_SCENE_NAMES[lab_scene->kind] : NULL;
         setting->value_count = binding_values(points->lab, &drawn, setting->values, message);
         vec3_to_float(lab_scene->objects[i].front.diffuse, setting->color);
         setting->owns_map = points->lab->shadow && i == 0;

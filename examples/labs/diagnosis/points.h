@@ -18,6 +18,7 @@ enum { POINT_CORNERS = 3, POINT_NUMBERS = 6 };
 typedef struct PointSetting {
     BindingValue values[BINDING_VALUES];
     int value_count, width, height;
+    const char *scene; /* its letter; NULL: not of the known ones */
     float color[4];
     unsigned char *map; /* lab 11: texels, the lowest row first; of all objects of a scene */
     bool owns_map, map_read;

@@ -1,6 +1,6 @@
 /* What can be said without a name: sums over the pixels inside objects. Errors in lit and in unlit
- * parts and in each scene point to different terms of the sum; the worst pixel has
- * its two colours, for those who want to calculate. */
+ * parts point to different terms of the sum; the worst pixel has its two colours, for those who
+ * want to calculate. */
 #include "labs/diagnosis/diagnose.h"
 
 #include <math.h>
@@ -10,7 +10,6 @@ typedef struct Overview {
     double pixels, bright_pixels;
     double dark, bright; /* drawn minus exact, of dark and of bright pixels */
     bool anything;       /* any pixel is not black */
-    bool wrong[LAB_SCENE_KIND_COUNT];
 } Overview;
 
 static void look_at(const LabPicture *picture, const Reference *exact, Overview *overview)
@@ -34,24 +33,6 @@ static void look_at(const LabPicture *picture, const Reference *exact, Overview 
             overview->dark += apart;
         }
     }
-}
-
-static void name_scenes(const Overview *overview, Verdict *verdict)
-{
-    static const char *const HINTS[LAB_SCENE_KIND_COUNT] = {
-        [LAB_SCENE_MOVED] = "Only scenes with a turned, moved or scaled object are wrong.",
-        [LAB_SCENE_COARSE] = "Only scenes with a coarse mesh are wrong.",
-        [LAB_SCENE_BEHIND] = "Only scenes with the light behind the object are wrong.",
-        [LAB_SCENE_CROWD] = "Only scenes with several objects are wrong.",
-        [LAB_SCENE_WIDE] = "Only scenes with a wide picture and a near light are wrong.",
-    };
-    int count = 0, last = 0;
-    for (int i = 0; i < LAB_SCENE_KIND_COUNT; i++) {
-        count += overview->wrong[i];
-        last = overview->wrong[i] ? i : last;
-    }
-    if (count == 1 && HINTS[last])
-        verdict_add_symptom(verdict, "%s", HINTS[last]);
 }
 
 static void compare_sides(const Overview *overview, Verdict *verdict)
@@ -110,7 +91,6 @@ void symptoms_describe(const LabPictures *pictures, bool moved, Verdict *verdict
     for (int i = 0; i < pictures->count; i++) {
         const LabPicture *picture = &pictures->items[i];
         look_at(picture, &picture->truths[pictures->truth], &overview);
-        overview.wrong[picture->lab_scene.kind] |= !verdict->probes[i].passed;
     }
     if (!overview.anything) {
         verdict_add_symptom(verdict, "Nothing is drawn, or everything is black: check that "
@@ -124,8 +104,6 @@ void symptoms_describe(const LabPictures *pictures, bool moved, Verdict *verdict
         verdict_add_symptom(verdict, "%s",
                             moved ? "The outline is wrong: check gl_Position first."
                                   : "The outline is right: the mistake is in the light.");
-    if (!budget)
-        name_scenes(&overview, verdict);
     compare_sides(&overview, verdict);
     point_at_worst(pictures, verdict);
 }

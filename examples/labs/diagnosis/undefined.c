@@ -207,7 +207,7 @@ bool diagnose(const LabPictures *pictures, Canvas *canvas, const SubmissionFiles
         all->canvas = canvas;
     if (all && !explain(all, verdict))
         wrong_part_describe(all, verdict);
-    if (all && all->mended && first)
+    if (all && (all->mended || all->mended_twice) && first)
         first_wrong_find(all, verdict, first);
     derivation_close(all);
     if (!verdict->message[0])

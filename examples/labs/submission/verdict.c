@@ -1,6 +1,8 @@
 /* A verdict's points and its text for a terminal. */
 #include "labs/submission/verdict.h"
 
+#include "base/text.h"
+
 #include <math.h>
 #include <stdarg.h>
 
@@ -18,16 +20,21 @@ void verdict_add_symptom(Verdict *verdict, const char *format, ...)
     va_end(arguments);
 }
 
-void verdict_add_mistake(Verdict *verdict, const char *name, const char *sentence, const char *look,
-                         double sure)
+VerdictMistake *verdict_add_mistake(Verdict *verdict, const char *name, const char *sentence,
+                                    const char *look, double sure)
 {
     if (verdict->mistake_count == VERDICT_MAX_MISTAKES)
-        return;
+        return NULL;
     VerdictMistake *mistake = &verdict->mistakes[verdict->mistake_count++];
-    snprintf(mistake->name, sizeof mistake->name, "%s", name);
+    *mistake = (VerdictMistake){.sure = sure};
+    enum { LONGEST = 90 };
+    char whole[VERDICT_SENTENCE_SIZE];
+    snprintf(whole, sizeof whole, "%s", name);
+    text_shorten(whole, LONGEST);
+    snprintf(mistake->name, sizeof mistake->name, "%.*s", LONGEST, whole);
     snprintf(mistake->sentence, sizeof mistake->sentence, "%s", sentence);
     snprintf(mistake->look, sizeof mistake->look, "%s", look);
-    mistake->sure = sure;
+    return mistake;
 }
 
 void verdict_begin(Verdict *verdict, const Lab *lab, uint64_t seed)

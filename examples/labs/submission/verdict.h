@@ -35,10 +35,15 @@ enum {
 
 /* A mistake that explains the pictures. `sure` is 0 to 1. */
 typedef struct VerdictMistake {
-    char name[64];
+    char name[128];
     char sentence[VERDICT_SENTENCE_SIZE]; /* what is wrong */
     char look[VERDICT_SENTENCE_SIZE];     /* completes "Look at ..." */
     double sure;
+    /* All is right, once the others are mended, with `change` instead of `text`, which is at the
+     * line and column of the file. A line of 0: not known. */
+    char file[64];
+    int line, column;
+    char text[VERDICT_SENTENCE_SIZE], change[VERDICT_SENTENCE_SIZE];
 } VerdictMistake;
 
 /* The result of one scene. */
@@ -91,8 +96,8 @@ typedef struct Verdict {
 /* Adds text, cut if too long. */
 void verdict_add_symptom(Verdict *verdict, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
-void verdict_add_mistake(Verdict *verdict, const char *name, const char *sentence, const char *look,
-                         double sure);
+VerdictMistake *verdict_add_mistake(Verdict *verdict, const char *name, const char *sentence,
+                                    const char *look, double sure); /* NULL: there are too many */
 
 /* One that says nothing yet: no points of as many as the lab has. */
 void verdict_begin(Verdict *verdict, const Lab *lab, uint64_t seed);

@@ -11,6 +11,14 @@ static const char *const SETS[] = {"seed", "known", NULL};
     {                                                                                              \
         .name = #member, .kind = FIELD_TEXT, AT(type, member), .max = SIZE(type, member)           \
     }
+#define LINES(type, member)                                                                        \
+    {                                                                                              \
+        .name = #member, .kind = FIELD_LINES, AT(type, member), .max = SIZE(type, member)          \
+    }
+#define WHOLE(type, member)                                                                        \
+    {                                                                                              \
+        .name = #member, .kind = FIELD_WHOLE, AT(type, member), .max = 1 << 20                     \
+    }
 #define NUMBER(type, member, low, high)                                                            \
     {                                                                                              \
         .name = #member, .kind = FIELD_NUMBER, AT(type, member), .min = low, .max = high           \
@@ -24,11 +32,11 @@ static const char *const SETS[] = {"seed", "known", NULL};
     }
 
 static const Field MISTAKE[] = {
-    TEXT(VerdictMistake, name),
-    TEXT(VerdictMistake, sentence),
-    TEXT(VerdictMistake, look),
-    NUMBER(VerdictMistake, sure, 0, 1),
-    FIELD_END,
+    TEXT(VerdictMistake, name),    TEXT(VerdictMistake, sentence),
+    TEXT(VerdictMistake, look),    NUMBER(VerdictMistake, sure, 0, 1),
+    TEXT(VerdictMistake, file),    WHOLE(VerdictMistake, line),
+    WHOLE(VerdictMistake, column), LINES(VerdictMistake, text),
+    TEXT(VerdictMistake, change),  FIELD_END,
 };
 
 static const Field SYMPTOM[] = {{.kind = FIELD_TEXT, .max = VERDICT_SENTENCE_SIZE}, FIELD_END};
@@ -36,8 +44,8 @@ static const Field SYMPTOM[] = {{.kind = FIELD_TEXT, .max = VERDICT_SENTENCE_SIZ
 static const Field PROBE[] = {
     TEXT(VerdictProbe, name),
     {.name = "set", .kind = FIELD_FLAG, AT(VerdictProbe, known), .choices = SETS},
-    {.name = "width", .kind = FIELD_WHOLE, AT(VerdictProbe, width), .max = 16384},
-    {.name = "height", .kind = FIELD_WHOLE, AT(VerdictProbe, height), .max = 16384},
+    WHOLE(VerdictProbe, width),
+    WHOLE(VerdictProbe, height),
     NUMBER(VerdictProbe, seconds, -1e9, 1e9),
     {.name = "maximum", .kind = FIELD_ERROR, AT(VerdictProbe, maximum), .max = 1e9},
     {.name = "rms", .kind = FIELD_ERROR, AT(VerdictProbe, rms), .max = 1e9},
@@ -58,7 +66,7 @@ const Field VERDICT_FIELDS[] = {
     LIST("parts", parts, part_count, PART, true),
     {.name = "verdict", .kind = FIELD_CHOICE, AT(Verdict, kind), .choices = VERDICT_NAMES},
     TEXT(Verdict, message),
-    {.name = "details", .kind = FIELD_LINES, AT(Verdict, details), .max = VERDICT_DETAILS_SIZE},
+    LINES(Verdict, details),
     LIST("mistakes", mistakes, mistake_count, MISTAKE, false),
     LIST("symptoms", symptoms, symptom_count, SYMPTOM, false),
     LIST("probes", probes, probe_count, PROBE, false),
