@@ -276,11 +276,13 @@ static void find_place(Derivation *all, const Found *found)
     free(values);
 }
 
-/* After a colon the right program's words become the submission's, if the place is known. */
-static void add(const Mutation *mutation, const char *place, double sure, Verdict *verdict)
+/* After a colon the right program's words become the submission's, if the place is known; of one of
+ * two mistakes it is not. */
+static void add(const Mutation *mutation, const char *place, bool alone, double sure,
+                Verdict *verdict)
 {
     char name[VERDICT_SENTENCE_SIZE], sentence[VERDICT_SENTENCE_SIZE];
-    const char *colon = strstr(mutation->name, ": "), *own = strstr(place, ": ");
+    const char *colon = strstr(mutation->name, ": "), *own = alone ? strstr(place, ": ") : NULL;
     snprintf(name, sizeof name, "%.*s%.250s",
              (int)(colon && own ? colon - mutation->name : MUTATION_TEXT), mutation->name,
              colon && own ? own : "");
@@ -340,8 +342,8 @@ static void say(Derivation *all, Verdict *verdict)
         else
             snprintf(look, sizeof look, "where %s should be", found->mutation.was);
         if (found->first)
-            add(&found->first->mutation, look, sure, verdict);
-        add(&found->mutation, look, sure, verdict);
+            add(&found->first->mutation, look, false, sure, verdict);
+        add(&found->mutation, look, !found->first, sure, verdict);
     }
     const bool same = found->first && found->first->mutation.rank == found->mutation.rank;
     snprintf(verdict->message, sizeof verdict->message, "%s%s%s%s",
