@@ -136,8 +136,7 @@ int example_main(const Example *example, int argc, char *argv[])
     Message message = {0};
     const Usage usage = options_usage(example);
 #ifdef M_TRIM_THRESHOLD
-    /* Else Mesa's memory for vertices is cleared in each frame of a large mesh, in half its time.
-     */
+    /* Else a large mesh's memory in Mesa is cleared in each frame, in half its time. */
     mallopt(M_TRIM_THRESHOLD, 1 << 29);
 #endif
     for (int i = 0; example->parameters && example->parameters[i].name; i++)
