@@ -338,11 +338,15 @@ class Holes(Labs):
         exponent, power = "4.0 * u_Shininess + 1.3", ("frag", "pow(nDotH, shininess)", "exp2(log(nDotH) * shininess)")
         reversed_light = ("vert", "u_LightPosition[i] - position", "position - u_LightPosition[i]")
         matrix = ("vert", "u_NormalMatrix * vec4", "u_ModelMatrix * vec4")
+        distance = ("normalize(u_LightPosition[i] - v_Position);",
+                    "u_LightPosition[i] - v_Position, toLight = lightDirection;\n        lightDirection = normalize(toLight);")
         cases = [
             (7, 1, ["not normalized: "], halved, ("frag", exponent, "u_Shininess * 4.0")),
             (7, 1, ["not normalized: "], halved, ("frag", exponent, "4.05 * u_Shininess")),
             (7, 1, ["5.0 for 4.0"], ("frag", exponent, "5.0 * u_Shininess")),
             (7, 1, ["log(nDotH) for log2(nDotH)"], power, ("frag", exponent, "4.0 * u_Shininess")),
+            (5, 1, ["divided by length(toLight)"], ("frag", *distance), ("frag", "nDotL;", "nDotL / length(toLight);")),
+            (8, 1, ["in parentheses: "], ("frag", "color += attenuation * ", "color = attenuation * (color + "), ("frag", "* reflectance", "* reflectance)")),
             (4, 1, ["reversed: ", "u_ModelMatrix for u_NormalMatrix"], reversed_light, matrix),
             (4, 7, ["reversed: ", "u_ModelMatrix for u_NormalMatrix"], reversed_light, matrix),
         ]
