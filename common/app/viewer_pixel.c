@@ -65,13 +65,6 @@ static void forget(ViewerPixel *pixel)
     image_close(&pixel->image);
 }
 
-static void forget_seen(ViewerPixel *pixel)
-{
-    probing_close(&pixel->seen);
-    pixel->seen = (Probing){.renderer = {.example = NULL}};
-    pixel->sees = false;
-}
-
 /* The verdict first. */
 static char *arranged(char *text)
 {
@@ -122,21 +115,15 @@ static void find_shown(ViewerPixel *pixel, const Probing *probing, const ProbePl
     pixel->legend = output_text_close(&legend);
 }
 
-static const ProbePlugin *find_plugin(const Viewer *viewer, Message *why)
-{
-    const bool one = viewer->options.canvas.samples <= 1;
-    if (!one)
-        message_set(why, "a pixel of several samples has no one colour: set samples to 0");
-    return one ? probing_plugin(why) : NULL;
-}
-
 /* In the renderer's place, because only one is open at a time; `explained`: at that pixel. */
 static bool probe(Viewer *viewer, Probing *probing, const int *explained, Message *why)
 {
     ViewerPixel *pixel = &viewer->pixel;
     Renderer *renderer = &viewer->reload.renderer;
-    const ProbePlugin *plugin = find_plugin(viewer, why);
-    if (!plugin)
+    const ProbePlugin *plugin = probing_plugin(why);
+    if (viewer->options.canvas.samples > 1)
+        message_set(why, "a pixel of several samples has no one colour: set samples to 0");
+    if (!plugin || viewer->options.canvas.samples > 1)
         return false;
     renderer_close(renderer);
     const bool opened =
@@ -184,24 +171,19 @@ static bool find_exact(Viewer *viewer, const int at[2], ExactPixel *exact)
 {
     ViewerPixel *pixel = &viewer->pixel;
     Renderer *renderer = &viewer->reload.renderer;
-    Message why = {.located = false};
     double color[4];
     int draw;
     if (renderer->kind->exact)
         return renderer->kind->exact(renderer, viewer_request(viewer), at, exact);
-    const ProbePlugin *plugin = find_plugin(viewer, &why);
-    if (plugin && !pixel->sees)
-        pixel->sees = probe(viewer, &pixel->seen, NULL, &why);
+    pixel->sees = pixel->sees || probe(viewer, &pixel->seen, NULL, NULL);
     const ProbeQuestion question = {.capture = &pixel->seen.capture,
                                     .driver = &pixel->seen.driver,
                                     .column = at[0],
                                     .row = at[1],
                                     .height = viewer->canvas->height};
-    if (!pixel->sees || !plugin->exact(&question, color, &draw))
+    if (!pixel->sees || !probing_plugin(NULL)->exact(&question, color, &draw))
         return false;
-    for (int i = 0; i < 3; i++)
-        exact->color[i] = (float)color[i];
-    exact->equation = NULL;
+    *exact = (ExactPixel){{(float)color[0], (float)color[1], (float)color[2]}, .equation = NULL};
     snprintf(exact->object, sizeof exact->object, "object %d", draw);
     return true;
 }
@@ -249,7 +231,8 @@ void viewer_pixel_point(Viewer *viewer)
     if (same && memcmp(at, pixel->line_at, sizeof at) == 0)
         return;
     if (!same)
-        forget_seen(pixel);
+        probing_close(&pixel->seen);
+    pixel->sees = pixel->sees && same;
     memcpy(pixel->line_at, at, sizeof at);
     pixel->line_of = of;
     pixel->line_renewals = viewer->panel.renewals;
@@ -299,6 +282,6 @@ const Image *viewer_pixel_image(const Viewer *viewer)
 void viewer_pixel_close(ViewerPixel *pixel)
 {
     forget(pixel);
-    forget_seen(pixel);
+    probing_close(&pixel->seen);
     *pixel = (ViewerPixel){.open = false};
 }

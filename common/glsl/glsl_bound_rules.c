@@ -151,8 +151,7 @@ GlslRange range_of(int op, GlslRange a, GlslRange b, bool same)
     switch (op) {
     case OP_ADD: return range_sum(a, b);
     case OP_SUBTRACT:
-        return same && isfinite(magnitude(a)) ? (GlslRange){0, 0}
-                                              : range_sum(a, (GlslRange){-b.high, -b.low});
+        return same && isfinite(magnitude(a)) ? (GlslRange){0, 0} : range_minus(a, b);
     case OP_MULTIPLY:
         if ((!isfinite(magnitude(a)) && holds_zero(b)) ||
             (!isfinite(magnitude(b)) && holds_zero(a)))

@@ -237,14 +237,13 @@ static void compare(GlslBoundRun *run, Entry *entry)
     entry->by[0] = entry->by[1] = NONE;
     entry->born = 0;
     tape_slope(entry, is_point(entry->exact) ? NONE : ANY);
-    if (error == 0 || (!whole && (apart.low > error || apart.high < -error))) {
+    if (error == 0 || (!whole && (apart.low > error || apart.high < -error)))
         entry->driver = entry->exact;
-    } else if (is_point(entry->exact) && is_point(entry->driver) &&
-               entry->exact.low == entry->driver.low) {
-    } else {
+    else if (!is_point(entry->exact) || !is_point(entry->driver) ||
+             entry->exact.low != entry->driver.low) {
         GlslRange slope[2];
         for (int k = 0; k < 2; k++)
-            slope[k] = range_sum(a->slope[k], range_product(b->slope[k], (GlslRange){-1, -1}));
+            slope[k] = range_minus(a->slope[k], b->slope[k]);
         entry->edge = !whole && is_edge(run, slope, error);
         entry->born = range_difference(entry->exact, entry->driver);
     }

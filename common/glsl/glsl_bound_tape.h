@@ -38,6 +38,11 @@ static inline GlslRange range_sum(GlslRange a, GlslRange b)
     return sum.low <= sum.high ? sum : ANY; /* not of infinities that cancel */
 }
 
+static inline GlslRange range_minus(GlslRange a, GlslRange b)
+{
+    return range_sum(a, (GlslRange){-b.high, -b.low});
+}
+
 static inline GlslRange range_product(GlslRange a, GlslRange b)
 {
     if (is_point(a) && is_point(b) && isfinite(a.low * b.low))

@@ -56,19 +56,14 @@ static const GlslRun *run_at_pixel(Raster *raster, const RasterPixel *pixel, dou
 
 bool probe_exact(const ProbeQuestion *question, double color[4], int *draw)
 {
-    Message message = {0};
     Raster *raster = NULL;
     RasterPixel pixel = {.draw = -1};
-    bool known = raster_open(&raster, question->capture, question->driver, &message);
-    if (known)
+    if (raster_open(&raster, question->capture, question->driver, NULL))
         raster_find(raster, question->column, question->height - 1 - question->row, &pixel);
-    *draw = pixel.draw;
-    known = known && pixel.draw >= 0;
-    if (known) {
-        const GlslRun *run = run_at_pixel(raster, &pixel, color);
-        known = !run->stopped && !run->discarded;
-    }
+    const GlslRun *run = pixel.draw < 0 ? NULL : run_at_pixel(raster, &pixel, color);
+    const bool known = run && !run->stopped && !run->discarded;
     raster_close(raster);
+    *draw = pixel.draw;
     return known;
 }
 

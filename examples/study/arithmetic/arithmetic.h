@@ -6,6 +6,7 @@
 #define ARITHMETIC_H
 
 #include "core/canvas.h"
+#include "glsl/glsl_bound.h"
 #include "scene/scene.h"
 #include "study/arithmetic/functions.h"
 
@@ -59,13 +60,9 @@ bool meter_format(const Meter *meter, MeterStage stage, MeterPrecision precision
 enum { RASTER_SUBPIXELS = 10 }; /* as many bits can be told */
 
 typedef struct Raster {
-    /* The largest error of a varying in units in the last place (24 bits) of the largest of its
-     * corners' values: of triangles hundreds of pixels large, and of such whose depth varies up to
-     * eightfold; of triangles of a few pixels in units of the differences of the corners. */
-    double flat, perspective, small;
-    /* Of quadrilaterals of two triangles: the same at pixels that the shared edge passes, and how
-     * many such pixels are drawn twice or not at all. */
-    double edge;
+    double units; /* the largest error of varyings, of triangles of many shapes, in raster_units */
+    /* Of quadrilaterals of two triangles, of pixels that the shared edge passes: drawn twice, not.
+     */
     long edge_pixels, edge_twice, edge_missed;
     double bytes;         /* the largest error of rounding to 8 bits, in steps */
     int subpixel_bits;    /* of positions: of a pixel's width 2^-bits is resolved; at most
@@ -77,6 +74,30 @@ typedef struct Raster {
 } Raster;
 
 bool raster_measure(const Meter *meter, Raster *raster, Message *message);
+
+/* A number at a corner of a triangle, and by how much those at the next two differ from it. */
+typedef GlslRange RasterNumber[3];
+
+/* What a triangle's place and shape make of errors of what is interpolated in it, by planes in the
+ * window's coordinates, of numbers / w and of 1 / w (OpenGL ES 2.0 specification, 3.5.1). */
+typedef struct RasterTriangle {
+    RasterNumber place[3]; /* clip coordinates x, y and w */
+    GlslRange area;        /* their determinant: positive, if it is seen counterclockwise */
+    double height;         /* above its longest side, in pixels, at least */
+    double high;           /* the largest w */
+    double extent[2];      /* the numbers its window coordinates are made of, in half windows */
+    double shape;          /* its longest side over its height */
+    double most, slope;
+} RasterTriangle;
+GlslRange raster_determinant(const RasterNumber x, const RasterNumber y, const RasterNumber w);
+
+/* Of its place. `half`: the window's width and height, in pixels, halved. Lower triangles than
+ * 2 steps of the positions' grid have all points beside a side, and are left out. */
+void raster_triangle(RasterTriangle *triangle, const double half[2], int subpixel_bits);
+
+/* The largest error is Raster's units times this times 2^-24: what a unit in the last place of the
+ * window's coordinates, of the planes' slopes, and of itself changes. */
+double raster_units(const RasterTriangle *triangle, const RasterNumber number);
 
 /* Of one precision in one stage. */
 typedef struct Arithmetic {

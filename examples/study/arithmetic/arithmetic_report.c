@@ -178,12 +178,10 @@ static void put_functions(const Columns *columns, bool markdown, FILE *file)
 static void put_raster(const Raster *raster, FILE *file)
 {
     fprintf(file,
-            "A varying is up to %.1f units off in a large triangle, %.1f where the depth varies "
-            "eightfold,\n%.1f along an edge that two triangles share; in one of a few pixels by "
-            "%.0f units of the corners'\ndifferences. Of %ld pixels on shared edges %ld are drawn "
-            "twice and %ld not at all.\n",
-            raster->flat, raster->perspective, raster->edge, raster->small, raster->edge_pixels,
-            raster->edge_twice, raster->edge_missed);
+            "A varying is off by up to %.1f times what a unit in the last place of the window's "
+            "coordinates, of\nits slopes and of itself changes. Of %ld pixels on edges that two "
+            "triangles share %ld are drawn twice\nand %ld not at all.\n",
+            raster->units, raster->edge_pixels, raster->edge_twice, raster->edge_missed);
     fprintf(file, "Corners lie on a grid of 1/%d of a pixel", 1 << raster->subpixel_bits);
     if (raster->subpixel_bits == RASTER_SUBPIXELS)
         fputs(" or finer", file);
@@ -316,10 +314,7 @@ static void put_arithmetic_json(const Arithmetic *of, const char *name, JsonWrit
 static void put_raster_json(const Raster *raster, JsonWriter *json)
 {
     json_write_object(json, "raster");
-    json_write_number(json, "varying", raster->flat);
-    json_write_number(json, "perspective", raster->perspective);
-    json_write_number(json, "small", raster->small);
-    json_write_number(json, "shared_edge", raster->edge);
+    json_write_number(json, "varying", raster->units);
     json_write_number(json, "edge_pixels", (double)raster->edge_pixels);
     json_write_number(json, "edge_twice", (double)raster->edge_twice);
     json_write_number(json, "edge_missed", (double)raster->edge_missed);

@@ -18,18 +18,6 @@ void proof_vertex(const Proof *proof, int draw, unsigned vertex, double place[4]
         place[k] = handed[k].value;
 }
 
-/* Pixels of a unit of x / w or y / w. */
-static double pixels_of(const Proof *proof, const ProofTriangle *triangle, int k)
-{
-    const int *viewport = proof->capture.draws[triangle->draw].viewport;
-    return (proof->driver.height ? proof->driver.height : viewport[2 + k]) / 2.0;
-}
-
-static GlslRange range_minus(GlslRange a, GlslRange b)
-{
-    return range_sum(a, (GlslRange){-b.high, -b.low});
-}
-
 /* The range of a corner's number, or of its difference from another's. */
 static GlslRange apart(const Output *a, const Output *b, const ProofBox *box)
 {
@@ -42,22 +30,20 @@ static GlslRange apart(const Output *a, const Output *b, const ProofBox *box)
     return (GlslRange){middle - reach, middle + reach};
 }
 
-/* The determinant of x, y and w of the corners: positive, if it is seen counterclockwise. */
-static GlslRange area_of(const ProofDraw *draw, const ProofBox *box)
+/* What the corners have of a number. */
+static void set_number(const Output *const corners[3], int at, const ProofBox *box,
+                       RasterNumber number)
 {
-    static const int XYW[3] = {0, 1, 3};
-    GlslRange rows[3][3], area = {0, 0};
     for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++)
-            rows[i][k] =
-                apart(&draw->corners[i][XYW[k]], i ? &draw->corners[0][XYW[k]] : NULL, box);
-    for (int k = 0; k < 3; k++) {
-        const int u = (k + 1) % 3, v = (k + 2) % 3;
-        area = range_sum(
-            area, range_product(rows[0][k], range_minus(range_product(rows[1][u], rows[2][v]),
-                                                        range_product(rows[1][v], rows[2][u]))));
-    }
-    return area;
+        number[i] = apart(corners[i] + at, i ? corners[0] + at : NULL, box);
+}
+
+/* All but what raster_triangle finds. */
+static void set_place(const ProofDraw *draw, const ProofBox *box, RasterTriangle *place)
+{
+    for (int k = 0; k < 3; k++)
+        set_number(draw->corners, k + k / 2, box, place->place[k]);
+    place->area = raster_determinant(place->place[0], place->place[1], place->place[2]);
 }
 
 /* Whether it is not drawn, from any camera of a box; `front`: false and true where it may be. */
@@ -101,43 +87,42 @@ bool proof_next(const Proof *proof, ProofTriangle *triangle)
             continue;
         while (3 * ++triangle->number + 2 < draw->vertex_count) {
             bool front[2];
+            RasterTriangle place;
             for (int i = 0; i < 3; i++)
                 triangle->corners[i] = draw->vertices[3 * triangle->number + i];
             if (proof->moves)
                 return true;
             set_corners(proof, triangle, &still);
-            if (!is_culled(draw, area_of(&proof->draws[triangle->draw], &still), front))
+            set_place(&proof->draws[triangle->draw], &still, &place);
+            if (!is_culled(draw, place.area, front))
                 return true;
         }
     }
 }
 
-/* How the shares of the corners change from a pixel to the next, by the derivative of x / w and
- * y / w at a place; zeroed, if it is behind the eye or seen from the side. */
-static void find_pixel(const Proof *proof, const ProofTriangle *triangle, const double at[2],
+static double slope_of(const RasterTriangle *triangle, const RasterNumber number, int way)
+{
+    const RasterNumber *at = triangle->place;
+    const GlslRange slope =
+        way ? raster_determinant(at[0], number, at[2]) : raster_determinant(number, at[1], at[2]);
+    return (slope.low + slope.high) / (triangle->area.low + triangle->area.high);
+}
+
+/* How the shares of the corners change from a pixel to the next, at a place; zeroed, if it is
+ * behind the eye or seen from the side. */
+static void find_pixel(const RasterTriangle *triangle, const double half[2], const double at[2],
                        double pixel[2][2])
 {
-    const Output *const *corners = proof->draws[triangle->draw].corners;
-    double p[3], change[3][2], slope[2][2];
-    for (int k = 0; k < 3; k++) {
-        const int of = k == 2 ? 3 : k;
-        const double first = corners[0][of].value;
-        change[k][0] = corners[1][of].value - first;
-        change[k][1] = corners[2][of].value - first;
-        p[k] = first + at[0] * change[k][0] + at[1] * change[k][1];
+    static const RasterNumber one = {{1, 1}},
+                              shares[2] = {{{0, 0}, {1, 1}}, {{0, 0}, {0, 0}, {1, 1}}};
+    const GlslRange *of = triangle->place[2];
+    const double w = of[0].low + at[0] * of[1].low + at[1] * of[2].low;
+    for (int i = 0; i < 4; i++) {
+        const int way = i / 2, k = i % 2;
+        const double change =
+            slope_of(triangle, shares[k], way) - at[k] * slope_of(triangle, one, way);
+        pixel[way][k] = w > 0 && isfinite(change) ? w * change / half[way] : 0;
     }
-    memset(pixel, 0, 4 * sizeof pixel[0][0]);
-    for (int k = 0; k < 2; k++)
-        for (int i = 0; i < 2; i++)
-            slope[k][i] = (change[k][i] * p[2] - p[k] * change[2][i]) / (p[2] * p[2]) *
-                          pixels_of(proof, triangle, k);
-    const double area = slope[0][0] * slope[1][1] - slope[0][1] * slope[1][0];
-    if (!(p[2] > 0) || !(fabs(area) > 0))
-        return;
-    pixel[0][0] = slope[1][1] / area;
-    pixel[0][1] = -slope[1][0] / area;
-    pixel[1][0] = -slope[0][1] / area;
-    pixel[1][1] = slope[0][0] / area;
 }
 
 /* Pieces */
@@ -149,58 +134,25 @@ static void set(GlslBoundRun *run, const char *name, int at, GlslInput input)
         run->inputs[found.first + at] = input;
 }
 
-/* How much lower a triangle is on the screen than those of a few pixels that were measured, at
- * least 1: the error of an interpolated number's slope grows so. */
-static double flatness(const Proof *proof, const ProofTriangle *triangle, GlslRange area,
-                       const ProofBox *box)
-{
-    static const double MEASURED = 5 /* of an equilateral one with sides of 6 pixels */, MOST = 1e3;
-    const Output *const *corners = proof->draws[triangle->draw].corners;
-    double longest = 0, least = fmax(fmax(area.low, -area.high), 0);
-    GlslRange w[3];
-    for (int i = 0; i < 3; i++) {
-        w[i] = apart(&corners[i][3], NULL, box);
-        if (!(w[i].low > 1e-6))
-            return MOST;
-        least /= w[i].high;
-    }
-    for (int i = 0; i < 3; i++) {
-        const Output *a = corners[i], *b = corners[(i + 1) % 3];
-        double side[2];
-        for (int k = 0; k < 2; k++) { /* b / w - a / w of their w */
-            const GlslRange change =
-                range_minus(range_product(apart(&b[k], &a[k], box), w[i]),
-                            range_product(apart(&a[k], NULL, box), apart(&b[3], &a[3], box)));
-            side[k] =
-                magnitude(change) / (w[i].low * w[(i + 1) % 3].low) * pixels_of(proof, triangle, k);
-        }
-        longest = fmax(longest, hypot(side[0], side[1]));
-    }
-    least *= pixels_of(proof, triangle, 0) * pixels_of(proof, triangle, 1);
-    return fmin(fmax(MEASURED * longest / fmax(least, 1e-6), 1), MOST);
-}
-
 /* A varying's number: linear, with the corners' error and the interpolation's. */
-static GlslInput interpolated(const Proof *proof, const Output *const corners[3],
-                              const ProofBox *box, double flat)
+static GlslInput interpolated(const Proof *proof, const ProofDraw *draw, int at,
+                              const ProofBox *box, const RasterTriangle *place)
 {
-    const Raster *raster = proof->driver.raster;
-    const Format *format = &proof->driver.vertex->format;
-    const double a = corners[0]->value, s = corners[1]->value - a, t = corners[2]->value - a;
+    RasterNumber number;
+    set_number(draw->corners, at, box, number);
+    const double a = draw->corners[0][at].value, s = draw->corners[1][at].value - a;
+    const double t = draw->corners[2][at].value - a;
     GlslInput made = {.middle = a + box->center[0] * s + box->center[1] * t,
                       .slope = {{s, s}, {t, t}}};
-    double most = 1e-30, range = 0;
     for (int i = 0; i < 3; i++) {
-        const Output *corner = corners[i];
+        const Output *corner = &draw->corners[i][at];
         made.error = fmax(made.error, corner->error);
         made.slack = fmax(made.slack, corner->slack);
-        most = fmax(most, magnitude(apart(corner, NULL, box)));
-        range = fmax(range, magnitude(apart(corner, corners[(i + 1) % 3], box)));
         for (int k = 2; k < GLSL_WAYS; k++)
             made.slope[k] = i ? hull(made.slope[k], corner->slope[k]) : corner->slope[k];
     }
-    made.error += fmax(raster->flat, raster->perspective) * format_ulp(format, most) +
-                  flat * raster->small * format_unit(format) * range;
+    made.error += proof->driver.raster->units * raster_units(place, number) *
+                  format_unit(&proof->driver.vertex->format);
     return made;
 }
 
@@ -229,25 +181,29 @@ static bool set_inputs(const Proof *proof, const ProofTriangle *triangle, const 
     ProofDraw *draw = &proof->draws[triangle->draw];
     GlslBoundRun *run = draw->runs[1];
     static const GlslRange any = {-(double)INFINITY, (double)INFINITY};
+    RasterTriangle place;
     bool front[2];
     set_corners(proof, triangle, box);
-    const GlslRange area = area_of(draw, box);
-    if (is_culled(&proof->capture.draws[triangle->draw], area, front))
+    set_place(draw, box, &place);
+    if (is_culled(&proof->capture.draws[triangle->draw], place.area, front))
         return false;
-    const double flat = flatness(proof, triangle, area, box);
+    const int *viewport = proof->capture.draws[triangle->draw].viewport;
+    const double high = (proof->driver.height ? proof->driver.height : viewport[3]) / 2.0;
+    const double half[2] = {high / viewport[3] * viewport[2], high};
+    raster_triangle(&place, half, proof->driver.raster->subpixel_bits);
+    if (!proof->moves && ldexp(place.height, proof->driver.raster->subpixel_bits) < 2)
+        return false;
     for (int i = 0; i < draw->stages.link_count; i++)
         for (int k = 0; k < draw->stages.links[i].count; k++) {
             const StageLink *link = &draw->stages.links[i];
-            const Output *corners[3];
-            for (int c = 0; c < 3; c++)
-                corners[c] = draw->corners[c] + PROOF_PLACE + link->at + k;
-            run->inputs[link->fragment + k] = interpolated(proof, corners, box, flat);
+            run->inputs[link->fragment + k] =
+                interpolated(proof, draw, PROOF_PLACE + link->at + k, box, &place);
         }
     set(run, "gl_FrontFacing", 0,
         (GlslInput){.middle = front[1], .slack = front[0] && front[1] ? (double)INFINITY : 0});
     for (int k = 0; k < 4; k++) /* only masks are looked up there */
         set(run, "gl_FragCoord", k, (GlslInput){.middle = .5, .slope = {any, any}});
-    find_pixel(proof, triangle, box->center, run->pixel);
+    find_pixel(&place, half, box->center, run->pixel);
     memcpy(run->radius, box->half, sizeof run->radius);
     return true;
 }

@@ -127,7 +127,7 @@ static void add_all(Pieces *pieces, int draw, int most)
 ProvedDraw prove_draw(const Proof *proof, int draw, int most)
 {
     /* What is left to gain by more pieces is a twentieth, or not to be seen. */
-    static const double NEAR = 1.05, SEEN = .01;
+    static const double NEAR = 1.05, SEEN = 1e-4;
     Pieces pieces = {.proof = proof};
     ProvedDraw proved = {.draw = draw};
     add_all(&pieces, draw, most);

@@ -91,62 +91,85 @@ static void read_floats(const Canvas *canvas, float *pixels)
     glReadPixels(0, 0, canvas->width, canvas->height, GL_RGBA, GL_FLOAT, pixels);
 }
 
-/* The largest error of a triangle in what was drawn, in units of its largest corner, or of the
- * corners' differences. */
-static double error_of_triangle(const Canvas *canvas, const Corner corners[3], bool differences,
-                                const float *pixels)
+/* A square of pixels with a triangle: of about so many pixels, and a part of that; what the
+ * corners' values differ by; w is from 1 to so much. */
+typedef struct Cell {
+    int x, y, size;
+    double side, height, share, depth;
+    Corner corners[3];
+} Cell;
+
+/* The largest error in what was drawn, in raster_units. */
+static double error_of(const Canvas *canvas, const Cell *cell, int bits, const float *pixels)
 {
-    static const Format single = {.bits = 24, .min_exponent = -126, .max_exponent = 127};
-    double low[2] = {INFINITY, INFINITY}, high[2] = {0, 0}, largest = 0;
-    for (int i = 0; i < 3; i++) {
-        double at[2];
-        window_of(canvas, &corners[i], at);
-        for (int k = 0; k < 2; k++) {
-            low[k] = fmin(low[k], at[k]);
-            high[k] = fmax(high[k], at[k]);
+    double largest = 0;
+    RasterNumber numbers[8]; /* x, y, z, w, and what it hands over */
+    RasterTriangle triangle;
+    for (int k = 0; k < 8; k++)
+        for (int i = 0; i < 3; i++) {
+            const Corner *at = &cell->corners[i];
+            const double number =
+                (double)(k < 4 ? at->position[k] : at->value[k - 4]) - (i ? numbers[k][0].low : 0);
+            numbers[k][i] = (GlslRange){number, number};
+        }
+    for (int k = 0; k < 3; k++)
+        memcpy(triangle.place[k], numbers[k + k / 2], sizeof *numbers);
+    raster_triangle(&triangle, (double[]){canvas->width / 2., canvas->height / 2.}, bits);
+    for (int i = 0; i < cell->size * cell->size; i++) {
+        const int x = cell->x + i % cell->size, y = cell->y + i / cell->size;
+        const float *pixel = pixel_of(canvas, pixels, x, y);
+        for (int c = 0; c < 4 && pixel[3] != 0; c++) {
+            const double exact = value_at(canvas, cell->corners, c, (double[]){x + 0.5, y + 0.5});
+            largest = fmax(largest, fabs((double)pixel[c] - exact) * 0x1p24 /
+                                        raster_units(&triangle, numbers[4 + c]));
         }
     }
-    for (int y = (int)fmax(low[1], 0); y < (int)fmin(high[1] + 1, canvas->height); y++)
-        for (int x = (int)fmax(low[0], 0); x < (int)fmin(high[0] + 1, canvas->width); x++) {
-            const float *pixel = pixel_of(canvas, pixels, x, y);
-            for (int c = 0; c < 4 && pixel[3] != 0; c++) {
-                const double exact = value_at(canvas, corners, c, (double[]){x + 0.5, y + 0.5});
-                double most = 0;
-                for (int i = 0; i < 3; i++) {
-                    const float other = differences ? corners[(i + 1) % 3].value[c] : 0;
-                    most = fmax(most, fabs((double)(corners[i].value[c] - other)));
-                }
-                largest = fmax(largest, fabs((double)pixel[c] - exact) / format_ulp(&single, most));
-            }
-        }
     return largest;
 }
 
-/* Triangles with sides of about `size` pixels, whose angles are not very small. */
-static double varyings(const Canvas *canvas, GLuint program, double size, double max_w, int count,
-                       float *pixels)
+/* Its angles are not very small, but for its height. */
+static void random_triangle(const Canvas *canvas, Random *random, Cell *cell)
 {
-    Random random = {(uint64_t)size};
-    double largest = 0;
-    for (int n = 0; n < count; n++) {
-        Corner corners[3];
-        const double x = random_between(&random, 0, canvas->width - size);
-        const double y = random_between(&random, 0, fmax(canvas->height - size, 1));
-        const double turn = random_between(&random, 0, 6.28);
-        for (int i = 0; i < 3; i++) {
-            const double angle = turn + 2.1 * i + random_between(&random, -0.5, 0.5);
-            corners[i] =
-                random_corner(&random, canvas, x + size / 2 * (1 + cos(angle)),
-                              y + size / 2 * (1 + sin(angle)), random_between(&random, 1, max_w));
-            if (max_w == 1)
-                corners[i].position[3] = 1;
-        }
-        canvas_clear(canvas, (Vec3){0, 0, 0}, 0);
-        draw_strip(program, GL_TRIANGLES, corners, 3);
-        read_floats(canvas, pixels);
-        largest = fmax(largest, error_of_triangle(canvas, corners, size < 16, pixels));
+    const double half = cell->side / 2, room = cell->size - cell->side;
+    const double x = cell->x + half + random_between(random, 0, room);
+    const double y = cell->y + half + random_between(random, 0, room);
+    const double turn = random_between(random, 0, 6.28), lies = random_between(random, 0, 6.28);
+    for (int i = 0; i < 3; i++) {
+        Corner *made = &cell->corners[i];
+        const double angle = turn + 2.1 * i + random_between(random, -0.5, 0.5);
+        const double along = half * cos(angle), across = half * sin(angle) * cell->height;
+        *made = random_corner(random, canvas, x + along * cos(lies) - across * sin(lies),
+                              y + along * sin(lies) + across * cos(lies),
+                              random_between(random, 1, cell->depth));
+        for (int c = 0; c < 4 && i; c++)
+            made->value[c] -=
+                (1 - (float)cell->share) * (made->value[c] - cell->corners[0].value[c]);
     }
-    return largest;
+}
+
+static void varyings(const Canvas *canvas, GLuint program, Raster *raster, float *pixels)
+{
+    enum { PICTURES = 6, CELLS = 32 };
+    static const double SIZES[] = {240, 60, 20, 6, 3}, DEPTHS[] = {1, 1.2, 8};
+    Random random = {240};
+    Cell cells[CELLS];
+    for (int n = 0; n < 5 * 3 * 2 * 2 * PICTURES; n++) {
+        const double side = SIZES[n / PICTURES / 12];
+        const int size = side > 64 ? 256 : 64, columns = canvas->width / size;
+        const int count = side > 64 ? 2 : CELLS; /* the canvas has 512x256 pixels */
+        canvas_clear(canvas, (Vec3){0, 0, 0}, 0);
+        for (int i = 0; i < count; i++) {
+            cells[i] = (Cell){
+                size * (i % columns), size * (i / columns), size,        side, n % 2 ? .1 : 1,
+                n / 2 % 2 ? .01 : 1,  DEPTHS[n / 4 % 3],    {{{0}, {0}}}};
+            random_triangle(canvas, &random, &cells[i]);
+            draw_strip(program, GL_TRIANGLES, cells[i].corners, 3);
+        }
+        read_floats(canvas, pixels);
+        for (int i = 0; i < count; i++)
+            raster->units =
+                fmax(raster->units, error_of(canvas, &cells[i], raster->subpixel_bits, pixels));
+    }
 }
 
 /* The distance of a pixel's center from a line, in pixels. */
@@ -191,16 +214,6 @@ static void shared_edges(const Canvas *canvas, GLuint program, Raster *raster, f
                 raster->edge_pixels++;
                 raster->edge_missed += pixel[3] == 0;
                 raster->edge_twice += pixel[3] > 1.5f;
-                double nearest = INFINITY;
-                for (int t = 0; t < 2 && pixel[3] == 1; t++) {
-                    double error = 0;
-                    for (int c = 0; c < 3; c++)
-                        error = fmax(error, fabs((double)pixel[c] -
-                                                 value_at(canvas, corners + t, c, point)));
-                    nearest = fmin(nearest, error);
-                }
-                if (nearest < INFINITY)
-                    raster->edge = fmax(raster->edge, nearest * 0x1p24);
             }
     }
     glBlendFuncSeparate(GL_ONE, GL_ZERO, GL_ONE, GL_ZERO);
@@ -386,15 +399,12 @@ bool raster_measure(const Meter *meter, Raster *raster, Message *message)
     const Canvas *canvas = &meter->canvas;
     float *pixels = memory_new(4 * (size_t)canvas->width * (size_t)canvas->height, sizeof *pixels);
     const GLuint program = meter_copy(METER_VERTEX, message);
-    *raster = (Raster){.flat = 0};
-    bool done = program != 0;
+    *raster = (Raster){.units = 0};
+    bool done = program && subpixels(canvas, program, raster, message);
     if (done) {
-        raster->flat = varyings(canvas, program, 240, 1, 24, pixels);
-        raster->small = varyings(canvas, program, 6, 1, 200, pixels);
-        raster->perspective = varyings(canvas, program, 240, 8, 24, pixels);
+        varyings(canvas, program, raster, pixels);
         shared_edges(canvas, program, raster, pixels);
-        done = bytes(meter, raster, message) && subpixels(canvas, program, raster, message) &&
-               depths(canvas, program, raster, message);
+        done = bytes(meter, raster, message) && depths(canvas, program, raster, message);
     }
     glDeleteProgram(program);
     free(pixels);
