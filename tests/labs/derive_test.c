@@ -4,6 +4,7 @@
 
 #include "labs/diagnosis/mutation.h"
 #include "core/shader_source.h"
+#include "base/memory.h"
 #include "support/testing.h"
 
 #include <stdlib.h>
@@ -106,6 +107,53 @@ TEST(test_mutants)
             test_lab(&LABS[i], &sum);
     assert_true(sum.tried > 0);
     assert_int_equal(sum.named, sum.tried);
+}
+
+/* Of lab 8's fragment shader: what stands there, and is named so. */
+TEST(test_names)
+{
+    static const struct {
+        const char *was, *by, *name;
+    } CASES[] = {
+        {"u_Attenuation.y * distance + u_Attenuation.z * distance * distance",
+         "u_Attenuation.z * distance + u_Attenuation.y * distance * distance",
+         "coefficients of distance swapped"},
+        {"vec3 color = u_AmbientLight * v_Color.rgb;",
+         "float fade = 1.0 / (u_Attenuation.x + u_Attenuation.y * distance + u_Attenuation.z * "
+         "distance * distance); vec3 color = u_AmbientLight * v_Color.rgb * fade;",
+         "factor too many: fade"},
+        {"u_SpecularColor * pow(rDotV, u_Shininess)",
+         "pow(u_SpecularColor * rDotV, vec3(u_Shininess))",
+         "to the power of vec3(u_Shininess), too: u_SpecularColor"},
+        {"u_Attenuation.y * distance", "u_Attenuation.y * distance * 0.4 * 3.0", "3.0 for 2.5"},
+    };
+    static Trial trial;
+    static Verdict verdict;
+    Message message = {0};
+    trial = (Trial){.lab = &LABS[8 - 1]};
+    if (!lab_pictures_open(&trial.pictures, trial.lab, 1, &message))
+        fail_msg("%s", message.text);
+    for (int k = 0; k < 2; k++)
+        trial.texts[k] = read_solution(trial.lab, k);
+    for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i++) {
+        SubmissionFiles files = {.count = 0};
+        const char *text = trial.texts[1], *at = strstr(text, CASES[i].was);
+        assert_non_null(at);
+        char *wrong = memory_format("%.*s%s%s", (int)(at - text), text, CASES[i].by,
+                                    at + strlen(CASES[i].was));
+        add_file(&files, trial.lab, 0, trial.texts[0]);
+        add_file(&files, trial.lab, 1, wrong);
+        free(wrong);
+        verdict = (Verdict){.seed = 1};
+        if (!diagnose(&trial.pictures, NULL, &files, &verdict, NULL, &message))
+            fail_msg("%s", message.text);
+        submission_files_close(&files);
+        assert_int_equal(verdict.mistake_count, 1);
+        assert_string_equal(verdict.mistakes[0].name, CASES[i].name);
+    }
+    for (int k = 0; k < 2; k++)
+        free(trial.texts[k]);
+    lab_pictures_close(&trial.pictures);
 }
 
 int main(void)

@@ -116,6 +116,14 @@ bool derive_use_right(Derivation *all, const char *ending, LitAt lit);
 /* Finds the one change of the submission, if any, that makes it right. True: to the last digit. */
 bool mend_find(Derivation *all);
 
+/* As mend_find, of numbers that no rule has: one of the submission is another, or a value lacks one
+ * as a factor. */
+void fit_find(Derivation *all);
+
+/* Takes a change of the stage as the one that mends, if it makes all right and none that did is
+ * better. */
+bool mend_try(Derivation *all, const Mutation *mutation, const char *text);
+
 /* Opens the stage's mutant: of the submission (`own`), with what it does not declare, or of the
  * right program. */
 bool mend_open(const Derivation *all, const char *text, bool own, PointShader *shader);

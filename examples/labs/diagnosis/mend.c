@@ -84,11 +84,28 @@ static bool loses(const Derivation *all, const Mutation *mutation)
     return all->lab->shadow && strchr(mutation->was, '(') && !strpbrk(mutation->by, "(.");
 }
 
-/* Whether it is where the first value is that is wrong, if that is known. */
+/* As mend_holds, or in a function that is called there. */
+static bool reaches(const GlslTree *tree, int node, int wanted)
+{
+    const GlslNode *at = &tree->nodes[node];
+    bool found = node == wanted ||
+                 (at->kind == GLSL_CALL && reaches(tree, tree->symbols[at->symbol].node, wanted));
+    for (int i = at->first; i && !found; i = tree->nodes[i].next)
+        found = reaches(tree, i, wanted);
+    return found;
+}
+
+/* Whether it is where the first value is that is wrong, if that is known, or decides whether that
+ * is computed. */
 static bool is_there(const Derivation *all, const Found *found)
 {
-    return all->place_node > 0 && found->stage == all->place_stage &&
-           mend_holds(all->own[found->stage].tree, all->place_node, found->mutation.node);
+    const GlslTree *tree = all->own[found->stage].tree;
+    const int place = all->place_node, node = found->mutation.node;
+    bool there = place > 0 && found->stage == all->place_stage && reaches(tree, place, node);
+    for (int i = 1; i < tree->node_count && place > 0 && !there; i++)
+        there = found->stage == all->place_stage && tree->nodes[i].kind == GLSL_IF &&
+                mend_holds(tree, i, place) && reaches(tree, tree->nodes[i].first, node);
+    return there;
 }
 
 /* Below 0: a is the better change: right to the last digit, and not by a
@@ -119,28 +136,35 @@ bool mend_open(const Derivation *all, const char *text, bool own, PointShader *s
     return opened;
 }
 
-static bool try_change(void *context, const Mutation *mutation, const char *text)
+bool mend_try(Derivation *all, const Mutation *mutation, const char *text)
 {
-    Derivation *all = context;
     PointShader shader, *pair[2] = {&all->own[0], &all->own[1]};
     Found found = {.mutation = *mutation, .stage = all->stage};
     if (mend_is_given(all, mutation) || loses(all, mutation) ||
         (all->mended && compare(all, &found, &all->mending) >= 0))
-        return true;
+        return false;
     if (!mend_open(all, text, true, &shader))
-        return true;
+        return false;
     pair[all->stage] = &shader;
     found.apart = mend_apart(all, pair, all->tolerance);
     const char *texts[2] = {NULL};
     texts[all->stage] = text;
-    if (found.apart <= all->tolerance &&
-        (!all->mended || compare(all, &found, &all->mending) < 0) && mend_passes(all, texts)) {
+    const bool better = found.apart <= all->tolerance &&
+                        (!all->mended || compare(all, &found, &all->mending) < 0) &&
+                        mend_passes(all, texts);
+    if (better) {
         free(all->mending.text);
         all->mending = found;
         all->mending.text = memory_text(text);
         all->mended = true;
     }
     point_shader_close(&shader);
+    return better;
+}
+
+static bool try_change(void *context, const Mutation *mutation, const char *text)
+{
+    mend_try(context, mutation, text);
     return true;
 }
 
@@ -152,6 +176,7 @@ bool mend_find(Derivation *all)
         mutations_each(all->own[stage].tree, NULL, all->right_numbers, all->right_number_count,
                        try_change, all);
     }
+    fit_find(all);
     all->mended_there = all->mended && is_there(all, &all->mending);
     return all->mended && all->mending.apart <= DERIVATION_EQUAL;
 }

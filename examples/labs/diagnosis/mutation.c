@@ -1,7 +1,8 @@
 /* A mutant is made as text: the tree is printed with a mark for one node, and what a rule says
  * replaces the mark. So the parser checks the types, and a rule is one line. In a rule $0 is the
  * node's own text, $1 to $3 are its operands, $4 what its variable begins with, $6 and $7 those of
- * the first, $8 and $9 those of the second, # is a number, and @ any name of the rule's type. */
+ * the first, $8 and $9 those of the second, # is a number, @ any name of the rule's type, and ~ any
+ * of a float. */
 #include "labs/diagnosis/mutation.h"
 
 #include "base/memory.h"
@@ -164,7 +165,7 @@ static void fill(const Maker *maker, const char *form, bool grouped, char *text,
         const char *put = NULL;
         if (*at == '$' && at[1] >= '0' && at[1] <= '9')
             put = maker->operands[*++at - '0'];
-        else if (*at == '@')
+        else if (*at == '@' || *at == '~')
             put = maker->name;
         else if (*at == '#')
             put = maker->number;
@@ -211,7 +212,7 @@ static void make(Maker *maker, int rule)
                          .likely = rule < LIKELY_COUNT,
                          .formula = !strpbrk(RULES[rule].by, "$@") && strchr(RULES[rule].by, '('),
                          .general =
-                             !strpbrk(RULES[rule].by, "#@") && RULES[rule].kind != GLSL_LITERAL};
+                             !strpbrk(RULES[rule].by, "#@~") && RULES[rule].kind != GLSL_LITERAL};
     char by[2048];
     fill(maker, RULES[rule].by, true, by, sizeof by);
     if (strcmp(by, maker->operands[0]) == 0 || (!by[0] && RULES[rule].by[0]) ||
@@ -260,8 +261,9 @@ static int names_of(const GlslTree *tree, int type, char names[MAX_NAMES][NAME_S
 static void apply(Maker *maker, int rule)
 {
     char names[MAX_NAMES][NAME_SIZE] = {""}, number[32] = "";
-    const bool named = strchr(RULES[rule].by, '@'), numbered = strchr(RULES[rule].by, '#');
-    const int type = maker->tree->nodes[maker->node].type;
+    const bool scalar = strchr(RULES[rule].by, '~'), named = scalar || strchr(RULES[rule].by, '@'),
+               numbered = strchr(RULES[rule].by, '#');
+    const int type = scalar ? GLSL_FLOAT : maker->tree->nodes[maker->node].type;
     const int name_count = named ? names_of(maker->tree, type, names) : 1;
     for (int i = 0; i < name_count; i++) {
         for (int k = 0; k < (numbered ? maker->number_count : 1) && !maker->ended; k++) {
@@ -366,4 +368,12 @@ void mutations_each(GlslTree *tree, const Mutation *only, const double *numbers,
         walk(&maker, tree->root, mark);
     free(maker.puts);
     tree->symbol_count--;
+}
+
+int mutation_number_rank(void)
+{
+    int rank = 0;
+    while (RULES[rank].kind != GLSL_LITERAL || RULES[rank].op != GLSL_FLOAT)
+        rank++;
+    return rank;
 }

@@ -40,4 +40,7 @@ void mutation_take_back(GlslTree *tree, int node, const GlslNode *was);
 void mutations_each(GlslTree *tree, const Mutation *only, const double *numbers, int count,
                     MutationTake *take, void *context);
 
+/* The rank of a number that is another. */
+int mutation_number_rank(void);
+
 #endif
