@@ -52,7 +52,7 @@ void first_wrong_find(Derivation *all, Verdict *verdict, FirstWrong *first)
         char place[VERDICT_SENTENCE_SIZE], where[100] = "", is[80], should[80];
         for (int k = 0; k < size; k++)
             other |= fabs(numbers[k] - wanted[k]) > 1e-4 * fmax(1, fabs(wanted[k]));
-        if (!other || strncmp(name, "gl_", 3) == 0)
+        if (!other)
             continue;
         put_place(all, all->order[0], where);
         put_numbers(numbers, size, is);
@@ -61,7 +61,8 @@ void first_wrong_find(Derivation *all, Verdict *verdict, FirstWrong *first)
         verdict_add_symptom(verdict,
                             "Wrong first, where it is worst%s: %s is %s; right is %s. See %s.",
                             where, name, is, should, place);
-        if (changes[1] && changes[0]->stage != changes[1]->stage) /* no single shader is right */
+        /* No picture of a colour, nor where no single shader is right. */
+        if (strncmp(name, "gl_", 3) == 0 || (changes[1] && changes[0]->stage != changes[1]->stage))
             continue;
         *first = (FirstWrong){.stage = (int)all->stage,
                               .right = right_declare(all->undeclared[all->stage], text)};

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { STEPS = 12, WORST_POINTS = 3, MANY_RULES = 1000 };
+enum { STEPS = 12, WORST_POINTS = 3, MANY_RULES = 1000, MOST_DIGITS = 2 };
 
 typedef struct Fit {
     Derivation *all;
@@ -83,12 +83,14 @@ static double solve(const Fit *fit, double number)
 static void take(const Fit *fit, double number)
 {
     Derivation *all = fit->all;
-    Mutation mutation = {.node = fit->node, .sentence = "", .rank = mutation_number_rank()};
-    mutation.rank += fit->form ? MANY_RULES : fit->usual; /* less likely */
+    Mutation mutation = {.node = fit->node, .sentence = ""};
     snprintf(mutation.was, sizeof mutation.was, "%.*s", MUTATION_TEXT - 1, fit->was);
     for (int digits = 1, taken = 0; digits <= 6 && !taken; digits++) {
         char short_number[32];
         print_number(number, digits, short_number);
+        /* Less likely: a factor, or a number of many digits; 0 or 1. */
+        mutation.rank =
+            mutation_number_rank() + (fit->form || digits > MOST_DIGITS ? MANY_RULES : fit->usual);
         char *text = text_with(fit, short_number, mutation.by);
         snprintf(mutation.mends, sizeof mutation.mends,
                  fit->form ? "factor missing: %.0s%s" : "%.40s for %s", fit->was, short_number);
