@@ -54,6 +54,7 @@ RULINGS = [
     (r"operands to arithmetic operators must be numeric", True, "+ takes no bool; glslang takes one"),
     (r"'non-constant global initializer", True, "a comma is in no constant expression; Mesa takes it"),
     (r"syntax error, unexpected IDENTIFIER$", False, "a word of the language can be a macro; glslang expands it sometimes only", r"# *define +(int|float|void|vec\d|mat\d|uniform|varying)\b"),
+    (r"undeclared identifier", True, "in what is skipped #ififdef opens no group; Mesa takes it for an #if", r"# *if(?!n?def\b)\w"),
 ]
 # Where both take what the specification does not: what we say.
 AGAINST_BOTH = [
