@@ -99,7 +99,8 @@ TEST_WITH(0, folders_are_safe_and_distinct, start, NULL)
 static const char GOOD[] =
     "{\"lab\":\"lab05_per_fragment\",\"seed\":7,\"points\":7.5,\"most\":10,\"verdict\":\"wrong\","
     "\"message\":\"one\\u0007 line\\nmore\",\"details\":\"a\\nb\",\"mistakes\":"
-    "[{\"name\":\"n\",\"sentence\":\"s\",\"look\":\"l\",\"sure\":0.5}],\"symptoms\":[\"x\"],"
+    "[{\"name\":\"n\",\"sentence\":\"s\",\"look\":\"l\",\"sure\":0.5,\"file\":\"a.vert\",\"line\":1,"
+    "\"column\":2,\"text\":\"b\",\"change\":\"c\"}],\"symptoms\":[\"x\"],"
     "\"probes\":[{\"name\":\"C\",\"set\":\"seed\",\"width\":96,\"height\":64,\"seconds\":1,"
     "\"maximum\":null,\"rms\":0.4,\"passed\":false}],\"pictures\":[\"worst.png\"],\"seconds\":0.4,"
     "\"cost\":null,\"new\":[1,2]}";
@@ -161,7 +162,7 @@ TEST_WITH(0, invalid_verdicts_are_refused, start, NULL)
         {"\"cost\":null", "\"cost\":[]"},
         {"\"one\\u0007", "\"\\u0000"},
         {"\"new\":[1,2]}", "\"new\":[1,2]}}"},
-        {"96", "1e6"},
+        {"96", "1e7"},
         {"\"details\":\"a\\nb\",", ""},
     };
     static Verdict verdict;

@@ -40,7 +40,7 @@ bool mend_passes(Derivation *all, const char *const texts[2])
         return true;
     if (++all->drawn > MOST_DRAWN)
         return false;
-    ShaderText files[3] = {{NULL}};
+    ShaderText files[3] = {{NULL, NULL}};
     for (int i = 0; i < 2; i++) {
         snprintf(names[i], sizeof names[i], "%s.%s", all->lab->file, i == 0 ? "vert" : "frag");
         whole[i] = right_declare(texts[i] ? all->undeclared[i] : "",
