@@ -213,7 +213,7 @@ void wrong_part_describe(Derivation *all, Verdict *verdict)
     char right[256], wrong[256], place[VERDICT_SENTENCE_SIZE] = "";
     const int count = wrong_part_list(all->lab, terms);
     for (int i = 0; i < count; i++)
-        states[i] = wrong_part_judge(all, &terms[i]);
+        states[i] = (int)wrong_part_judge(all, &terms[i]);
     for (int i = count; i-- > 0;)
         first = states[i] == PART_WRONG ? i : first;
     list_names(terms, states, count, PART_RIGHT, right);
