@@ -88,13 +88,13 @@ class Extra(Case):
         self.assertEqual((wrong["verdict"], wrong["points"]), ("wrong", 1))
         self.assertIn("The outline is right: the mistake is in the light.", wrong["symptoms"])
 
-    # Of the solution: what becomes what, and the value that is wrong first; "": all is at once.
+    # Of the solution: what becomes what, and the value that is wrong first, which is drawn, but the result.
     FIRST = [
         ("fog", "u_FogDensity * length(", "length(", "depth", "line 22 of fog.frag"),
         ("spot", "normalize(v_Normal)", "v_Normal", "nDotL", "line 21 of spot.frag"),
         ("spot", "-lightDirection, u_SpotDirection", "lightDirection, u_SpotDirection", "cosine", "line 23 of spot.frag"),
         ("spot", "u_Attenuation.y * d", "u_Attenuation.x * d", "attenuation", "line 25 of spot.frag"),
-        ("spot", "v_Color.rgb, v_Color.a", "v_Color.bgr, v_Color.a", "", ""),
+        ("spot", "v_Color.rgb, v_Color.a", "v_Color.bgr, v_Color.a", "gl_FragColor", "line 27 of spot.frag"),
     ]
 
     def test_the_first_wrong_value_is_told_and_drawn(self):
@@ -107,12 +107,13 @@ class Extra(Case):
             first = [text for text in symptoms if text.startswith(("Wrong first", "Below in the picture"))]
             with open(self.path("found", "worst.png"), "rb") as file:
                 width, height = struct.unpack(">II", file.read(24)[16:])
-            self.assertEqual(len(first), 2 if value else 0, symptoms)
-            if value:
-                self.assertRegex(first[0], rf"worst.*: {value} is [-\d].*; right is [-\d].*\. See {place}")
+            drawn = value != "gl_FragColor"
+            self.assertEqual(len(first), 2 if drawn else 1, symptoms)
+            self.assertRegex(first[0], rf"worst.*: {value} is [-\d].*; right is [-\d].*\. See {place}")
+            if drawn:
                 self.assertRegex(first[1], rf"submitted and right: {value}: from .*, dark violet, to ")
             # Square scenes; one is twice as wide.
-            self.assertIn(round((width - 16) / (height - (8 if value else 0)), 2), (1.5, 3) if value else (3, 6), first)
+            self.assertIn(round((width - 16) / (height - (8 if drawn else 0)), 2), (1.5, 3) if drawn else (3, 6), first)
 
     # Of the solution: what becomes what.
     MISTAKES = {
