@@ -108,9 +108,8 @@ static bool is_there(const Derivation *all, const Found *found)
     return there;
 }
 
-/* Below 0: a is the better change: right to the last digit, and not by a
- * formula instead of all; where the first wrong value is; of the
- * likelier rule; the earlier one; the smaller one. */
+/* Below 0: a is the better change: right to the last digit, and not by a formula instead of all;
+ * where the first wrong value is; of the likelier rule; the earlier one; the smaller one. */
 static int compare(const Derivation *all, const Found *a, const Found *b)
 {
     const GlslPlace *place = &all->own[a->stage].tree->nodes[a->mutation.node].place;
