@@ -216,3 +216,11 @@ const char *text_nearest(const char *word, const char *const *names)
     }
     return beginnings == 1 ? beginning : nearest;
 }
+
+uint32_t text_hash(const void *bytes, size_t size)
+{
+    uint32_t hash = 2166136261u;
+    for (size_t i = 0; i < size; i++)
+        hash = (hash ^ ((const unsigned char *)bytes)[i]) * 16777619u;
+    return hash;
+}

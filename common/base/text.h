@@ -5,6 +5,7 @@
 #define TEXT_H
 
 #include <stdbool.h>
+#include <stdint.h>
 #include <stdio.h>
 
 /* Whether a character can be part of a name in C or GLSL: a letter, a digit or an underscore. */
@@ -30,6 +31,9 @@ const char *text_comment_end(const char *text);
 /* In place, leaves out what is in parentheses, the innermost first, then words at the end, until it
  * has at most so many bytes: "dot(texture2D(...).rgb, vec3(...))". */
 void text_shorten(char *text, size_t most);
+
+/* FNV-1a of 32 bits. */
+uint32_t text_hash(const void *bytes, size_t size);
 
 /* In place, makes each comment a blank. */
 void text_strip_comments(char *text);

@@ -73,14 +73,6 @@ bool values_is_wrong(const Values *own, int number, const Values *mutant, const 
 
 enum { BAG = 1024 };
 
-static unsigned hash_text(const char *text)
-{
-    unsigned hash = 2166136261u;
-    for (; *text; text++)
-        hash = (hash ^ (unsigned char)*text) * 16777619u;
-    return hash;
-}
-
 static void fill_bag(const GlslTree *tree, int node, int bag[BAG], int by)
 {
     const GlslNode *at = &tree->nodes[node];
@@ -95,7 +87,7 @@ static void fill_bag(const GlslTree *tree, int node, int bag[BAG], int by)
              tree->symbols[at->symbol].storage <= GLSL_UNIFORM)
         snprintf(text, sizeof text, "%.60s", tree->symbols[at->symbol].name);
     if (text[0])
-        bag[hash_text(text) % BAG] += by;
+        bag[text_hash(text, strlen(text)) % BAG] += by;
     for (int i = at->first; i; i = tree->nodes[i].next)
         fill_bag(tree, i, bag, by);
 }

@@ -182,9 +182,7 @@ static void fill(const Maker *maker, const char *form, bool grouped, char *text,
 /* Whether no likelier rule put the same there. */
 static bool is_fresh(Maker *maker, const char *by)
 {
-    unsigned hash = 2166136261u;
-    for (const char *at = by; *at; at++)
-        hash = (hash ^ (unsigned char)*at) * 16777619u;
+    const unsigned hash = text_hash(by, strlen(by));
     for (int i = 0; i < maker->put_count; i++)
         if (maker->puts[i] == hash)
             return false;

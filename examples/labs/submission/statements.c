@@ -29,15 +29,6 @@ static uint32_t mix(uint32_t hash)
     return hash ^ hash >> 16;
 }
 
-/* FNV-1a. */
-static uint32_t hash_bytes(const void *bytes, size_t size)
-{
-    uint32_t hash = 2166136261u;
-    for (size_t i = 0; i < size; i++)
-        hash = (hash ^ ((const unsigned char *)bytes)[i]) * 16777619u;
-    return mix(hash);
-}
-
 static bool has_word(const char *text, const char *word, size_t size)
 {
     for (const char *at = text; (at = strchr(at, word[0])) != NULL; at++)
@@ -71,14 +62,14 @@ static uint32_t hash_word(const char *text, const SubmissionFiles *starter, bool
         const double number = strtod(text, &after);
         for (*end = after; text_is_word(**end);)
             ++*end;
-        return hash_bytes(&number, sizeof number);
+        return mix(text_hash(&number, sizeof number));
     }
     for (*end = text; text_is_word(**end);)
         ++*end;
     if (*end == text)
-        return hash_bytes((*end)++, 1);
+        return mix(text_hash((*end)++, 1));
     const size_t size = (size_t)(*end - text);
-    return is_given(starter, text, size, member) ? hash_bytes(text, size) : hash_bytes("x", 1);
+    return mix(is_given(starter, text, size, member) ? text_hash(text, size) : text_hash("x", 1));
 }
 
 static Statements *read_statements(const char *text, const SubmissionFiles *starter,
