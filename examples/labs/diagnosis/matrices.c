@@ -325,8 +325,8 @@ static int line_of(const char *code, int of)
     for (name += name != NULL; name && text_is_word(name[length]);)
         length++;
     for (const char *at = code; length > 0 && *at; line += *at++ == '\n')
-        if (at > name && !text_is_word(at[-1]) && !text_is_word(at[length]) &&
-            strncmp(at, name, length) == 0)
+        if (at > name && strncmp(at, name, length) == 0 && !text_is_word(at[-1]) &&
+            !text_is_word(at[length]))
             found = line;
     return found;
 }
