@@ -143,7 +143,8 @@ static void check_read(Compiler *compiler, int node, Value value)
     while (tree->nodes[root].kind == GLSL_INDEX || tree->nodes[root].kind == GLSL_FIELD ||
            tree->nodes[root].kind == GLSL_SWIZZLE)
         root = tree->nodes[root].first;
-    if (tree->nodes[root].kind != GLSL_NAME || !compiler->unset[tree->nodes[root].symbol])
+    if (tree->nodes[root].kind != GLSL_NAME || tree->nodes[root].constant ||
+        !compiler->unset[tree->nodes[root].symbol])
         return;
     for (int i = 0; i < value.count && value.count <= 16 && value.address < 0; i++)
         if (!compiler->code->message.text[0])
