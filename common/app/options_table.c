@@ -152,14 +152,6 @@ static bool refuse_in_gallery(const Parameter *parameter, const char *text, Mess
     return message_set(message, "--%s: a gallery has one picture of each program", parameter->name);
 }
 
-static int program_of(const Usage *usage)
-{
-    return usage->gallery ? PROGRAM_GALLERY
-           : usage->study ? PROGRAM_STUDY
-           : usage->kind  ? usage->kind->program
-                          : PROGRAM_ONE;
-}
-
 /* A table that is filled. */
 typedef struct Filling {
     Parameter *table;
@@ -207,8 +199,13 @@ static bool has_own(const Usage *usage, const char *name)
 int options_table(const Usage *usage, Options *options, OptionsPurpose purpose,
                   Parameter table[OPTIONS_MAX])
 {
-    Filling filling = {
-        .table = table, .program = program_of(usage), .options = options, .purpose = purpose};
+    Filling filling = {.table = table,
+                       .program = usage->gallery ? PROGRAM_GALLERY
+                                  : usage->study ? PROGRAM_STUDY
+                                  : usage->kind  ? usage->kind->program
+                                                 : PROGRAM_ONE,
+                       .options = options,
+                       .purpose = purpose};
     for (size_t i = 0; i < sizeof FIRST / sizeof FIRST[0]; i++)
         add_row(&filling, &FIRST[i]);
     for (const Parameter *row = usage->kind ? usage->kind->options : NULL; row && row->name; row++)

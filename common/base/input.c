@@ -8,11 +8,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static const char *kind_of(mode_t mode)
-{
-    return S_ISDIR(mode) ? "a folder" : S_ISFIFO(mode) ? "a pipe" : "a device";
-}
-
 static bool check_file(int file, const char *name, size_t max, size_t *size, Message *message)
 {
     struct stat status;
@@ -20,7 +15,9 @@ static bool check_file(int file, const char *name, size_t max, size_t *size, Mes
         return message_set(message, "%s: %s", name, strerror(errno));
     if (!S_ISREG(status.st_mode))
         return message_set(message, "%s: is %s; submit the file itself", name,
-                           kind_of(status.st_mode));
+                           S_ISDIR(status.st_mode)    ? "a folder"
+                           : S_ISFIFO(status.st_mode) ? "a pipe"
+                                                      : "a device");
     if (status.st_size > (off_t)max)
         return message_set(message, "%s: has %lld bytes; at most %zu are read", name,
                            (long long)status.st_size, max);

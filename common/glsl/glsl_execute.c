@@ -148,11 +148,6 @@ static double power(const GlslArithmetic *arithmetic, int precision, double x, d
     return mesa_exp2(arithmetic, (float)round_to(arithmetic, precision, log * y));
 }
 
-static double root(const GlslArithmetic *arithmetic, int precision, double x)
-{
-    return 1 / round_to(arithmetic, precision, sqrt(x));
-}
-
 /* What is undefined of a function, 0: nothing. */
 static int undefined(int op, double a, double b)
 {
@@ -187,7 +182,7 @@ static double function(const GlslArithmetic *arithmetic, const GlslInstruction *
     case OP_EXP2: return mesa ? mesa_exp2(arithmetic, (float)a) : exp2(a);
     case OP_LOG2: return mesa ? mesa_log2(arithmetic, (float)a) : log2(a);
     case OP_SQRT: return sqrt(a);
-    case OP_INVERSE_SQRT: return root(arithmetic, at->precision, a);
+    case OP_INVERSE_SQRT: return 1 / round_to(arithmetic, at->precision, sqrt(a));
     case OP_DIVIDE: return a / b;
     default: return b == 0 ? 0 : trunc(a / b); /* of ints */
     }

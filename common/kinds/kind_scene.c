@@ -1,5 +1,4 @@
 /* Programs that describe a scene: `lighting` draws its views, marks and labels go on top. */
-#include "app/panel_kind.h"
 #include "base/memory.h"
 #include "images/label.h"
 #include "kinds/scene_views.h"

@@ -7,7 +7,6 @@
 #include "base/memory.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 typedef struct Linked {
     const char *sources[2]; /* the draws' own */

@@ -192,9 +192,13 @@ static uint32_t first_at(const Mesh *mesh, uint32_t i)
     return first;
 }
 
-/* The slip moves the third control point of the first row of the third patch. */
-static void slip(Mesh *mesh, double size)
+/* Seams and poles are bitwise equal, and no two parts touch: of each place the first vertex gets
+ * all triangles that meet there, and the others its normal. */
+bool mesh_teapot_textbook(Mesh *mesh, double size, Message *message)
 {
+    if (!mesh_teapot(mesh, size, 4, message))
+        return false;
+    /* The slip moves the third control point of the first row of the third patch. */
     for (int j = 0; j < 4; j++) {
         const Basis down = basis_at(j, 4);
         for (int i = 1; i < 4; i++) {
@@ -203,15 +207,6 @@ static void slip(Mesh *mesh, double size)
                 (float)(0.09 * size / 2 * down.value[0] * around.value[2]);
         }
     }
-}
-
-/* Seams and poles are bitwise equal, and no two parts touch: of each place the first vertex gets
- * all triangles that meet there, and the others its normal. */
-bool mesh_teapot_textbook(Mesh *mesh, double size, Message *message)
-{
-    if (!mesh_teapot(mesh, size, 4, message))
-        return false;
-    slip(mesh, size);
     for (size_t i = 0; i < mesh->index_count; i++)
         mesh->indices[i] = first_at(mesh, mesh->indices[i]);
     if (!mesh_compute_normals(mesh, MESH_WEIGHT_ANGLE, message)) {

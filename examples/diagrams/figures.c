@@ -20,14 +20,10 @@ void figure_draw(Figure figure, const Optics *optics, Drawing *drawing)
         ROWS[figure].draw(&board, optics, i);
 }
 
-static const char *figure_cosine(const Optics *optics)
-{
-    return optics->reflection == REFLECTION_PHONG ? "$R·V$" : "$N·H$";
-}
-
 void figure_power(const Optics *optics, char text[FIGURE_TEXT])
 {
-    snprintf(text, FIGURE_TEXT, "(%s)^{%.4g}", figure_cosine(optics), optics->shininess);
+    snprintf(text, FIGURE_TEXT, "(%s)^{%.4g}",
+             optics->reflection == REFLECTION_PHONG ? "$R·V$" : "$N·H$", optics->shininess);
 }
 
 void figure_surface(Board *board, const Optics *optics, DrawingPoint origin, double left,

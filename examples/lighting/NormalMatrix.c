@@ -46,11 +46,6 @@ static bool init(const ShaderLoader *loader, Message *message)
     return shape_open(&state.shape, SHAPE_SPHERE, SHAPE_LECTURE, NULL, message);
 }
 
-static bool is_wrong(int view)
-{
-    return matrix == WRONG || view == 1;
-}
-
 static void scene(double seconds, int view, Scene *scene)
 {
     state.light =
@@ -59,7 +54,7 @@ static void scene(double seconds, int view, Scene *scene)
     const Mat4 turn = mat4_rotate(rotate, (Vec3){0, 1, 0});
     state.object =
         shape_object(&state.shape, mat4_product(turn, mat4_scale(scale)), surface.material);
-    state.object.wrong_normals = is_wrong(view);
+    state.object.wrong_normals = matrix == WRONG || view == 1;
     *scene =
         (Scene){.camera = {.eye = {3, 2, 3}, .up = {0, 1, 0}, .fovy = 60, .near = 1, .far = 100},
                 .background = {0.2, 0.2, 0.2},

@@ -16,7 +16,6 @@
 #include "scene/shape.h"
 
 #include <stdio.h>
-#include <string.h>
 
 enum { VIEWS = 10, LIGHTS = 2, ROUNDS = 15 };
 

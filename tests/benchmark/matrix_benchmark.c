@@ -88,45 +88,6 @@ static void own_general(const Batch *batch)
     }
 }
 
-/* The adjugate divided by the determinant, from 2x2 determinants of the upper and lower half, as in
- * common libraries. */
-static void plain_inverse(const double m[16], double out[16])
-{
-    double s[6], c[6]; /* of rows 0 and 1, and 2 and 3, for columns 01 02 03 12 13 23 */
-    static const int first[6] = {0, 0, 0, 1, 1, 2}, second[6] = {1, 2, 3, 2, 3, 3};
-    for (int k = 0; k < 6; k++) {
-        const double *p = &m[4 * first[k]], *q = &m[4 * second[k]];
-        s[k] = p[0] * q[1] - q[0] * p[1];
-        c[k] = p[2] * q[3] - q[2] * p[3];
-    }
-    const double determinant =
-        s[0] * c[5] - s[1] * c[4] + s[2] * c[3] + s[3] * c[2] - s[4] * c[1] + s[5] * c[0];
-    const double over = 1 / determinant;
-    const double *a = m, *b = m + 4, *d = m + 8, *e = m + 12; /* columns */
-    out[0] = (b[1] * c[5] - d[1] * c[4] + e[1] * c[3]) * over;
-    out[4] = (-b[0] * c[5] + d[0] * c[4] - e[0] * c[3]) * over;
-    out[8] = (b[3] * s[5] - d[3] * s[4] + e[3] * s[3]) * over;
-    out[12] = (-b[2] * s[5] + d[2] * s[4] - e[2] * s[3]) * over;
-    out[1] = (-a[1] * c[5] + d[1] * c[2] - e[1] * c[1]) * over;
-    out[5] = (a[0] * c[5] - d[0] * c[2] + e[0] * c[1]) * over;
-    out[9] = (-a[3] * s[5] + d[3] * s[2] - e[3] * s[1]) * over;
-    out[13] = (a[2] * s[5] - d[2] * s[2] + e[2] * s[1]) * over;
-    out[2] = (a[1] * c[4] - b[1] * c[2] + e[1] * c[0]) * over;
-    out[6] = (-a[0] * c[4] + b[0] * c[2] - e[0] * c[0]) * over;
-    out[10] = (a[3] * s[4] - b[3] * s[2] + e[3] * s[0]) * over;
-    out[14] = (-a[2] * s[4] + b[2] * s[2] - e[2] * s[0]) * over;
-    out[3] = (-a[1] * c[3] + b[1] * c[1] - d[1] * c[0]) * over;
-    out[7] = (a[0] * c[3] - b[0] * c[1] + d[0] * c[0]) * over;
-    out[11] = (-a[3] * s[3] + b[3] * s[1] - d[3] * s[0]) * over;
-    out[15] = (a[2] * s[3] - b[2] * s[1] + d[2] * s[0]) * over;
-}
-
-static void plain_cofactor(const Batch *batch)
-{
-    for (int i = 0; i < batch->count; i++)
-        plain_inverse(batch->doubles[i], batch->double_results[i]);
-}
-
 static void own_normal(const Batch *batch)
 {
     for (int i = 0; i < batch->count; i++) {
@@ -188,7 +149,6 @@ static const Algorithm INVERSES[] = {
     {"cglm glm_mat4_inv_precise, float", cglm_inverse_precise, true, false},
     {"GLM inverse, float", glm_inverse, true, false},
     {"GLM inverse, double", glm_inverse_double, false, false},
-    {"plain cofactors, double", plain_cofactor, false, false},
     {"mat4_inverse, affine (FMA)", own_affine, false, false},
     {"the same again (A/A)", own_affine, false, true},
     {"mat4_inverse, general (LU)", own_general, false, false},

@@ -715,9 +715,8 @@ TEST_WITH(0, perspective_refuses_what_is_out_of_range, start_random, NULL)
                              {1, 1e-308, 1, 2},
                              {60, 1, 1.6e308, 1.7e308},
                              {60, 1, 1.6e308, infinity}};
-    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
         assert_refused(make_perspective, bad[i], mat4_identity());
-    }
 }
 
 TEST_WITH(0, frustum_and_ortho_map_their_corners_to_the_unit_cube, start_random, NULL)
@@ -1030,9 +1029,8 @@ TEST_WITH(0, normal_matrix_refuses_rank_below_two, start_random, NULL)
                         mat4_scale((Vec3){0, 0, 1e-300}),
                         {{1, 2, 3, 0, 2, 4, 6, 0, 3, 6, 9, 0, 1, 2, 3, 1}},
                         {{0.1, 0.2, 0.3, 0, 0.4, 0.8, 1.2, 0, -0.1, -0.2, -0.3, 0, 0, 0, 0, 1}}};
-    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
         assert_refused(make_normal, bad[i].m, NONE);
-    }
 }
 
 /* Many matrices against 113 bits */

@@ -10,7 +10,6 @@
  */
 #include "app/options.h"
 #include "core/canvas.h"
-#include "core/gl.h"
 #include "glsl/glsl.h"
 
 #include <stdio.h>
@@ -56,16 +55,6 @@ static bool prints_as_itself(const GlslTree *tree)
     return equal;
 }
 
-static void ours(const char *text, GlslStage stage)
-{
-    GlslTree *tree = glsl_parse(text, stage, NULL);
-    if (tree->message_count)
-        printf("\t%d %s", tree->messages[0].place.line, tree->messages[0].text);
-    else
-        printf("\t%s", prints_as_itself(tree) ? "ok" : "differs");
-    glsl_tree_free(tree);
-}
-
 /* Mesa: "0:12(3): error: ...". */
 static void driver(const char *text, GlslStage stage)
 {
@@ -104,7 +93,12 @@ int main(int argc, char *argv[])
         char *text = read_all(path);
         const GlslStage stage = strstr(path, ".vert") ? GLSL_VERTEX : GLSL_FRAGMENT;
         printf("%s", path);
-        ours(text, stage);
+        GlslTree *tree = glsl_parse(text, stage, NULL);
+        if (tree->message_count)
+            printf("\t%d %s", tree->messages[0].place.line, tree->messages[0].text);
+        else
+            printf("\t%s", prints_as_itself(tree) ? "ok" : "differs");
+        glsl_tree_free(tree);
         if (alone)
             printf("\t\n");
         else

@@ -63,12 +63,6 @@ static int to_file(const char *path)
     return saved;
 }
 
-static void to_terminal(int saved)
-{
-    dup2(saved, 1);
-    close(saved);
-}
-
 /* The tolerance is for values halfway between two integers, which doubles round either way. */
 static void is_nearest(unsigned char found, double value)
 {
@@ -99,7 +93,8 @@ FOLDER_TEST(y4m_is_bt601_to_the_nearest_number)
     const bool done = animation_open(&animation, &options, &message) &&
                       animation_add(animation, &picture, &message) &&
                       animation_close(animation, true, &message);
-    to_terminal(saved);
+    dup2(saved, 1);
+    close(saved);
     assert_string_equal(message.text, "");
     assert_true(done);
     FILE *file = fopen("a.y4m", "r");

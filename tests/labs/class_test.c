@@ -2,16 +2,12 @@
  * class: names, verdicts from the sandbox, which result stays, and that students' text is escaped.
  */
 #include "labs/class/class_find.h"
-#include "labs/class/class_report.h"
-#include "labs/class/class_judge.h"
 #include "labs/class/class_store.h"
 #include "labs/sandbox/bundle.h"
-#include "labs/sandbox/source.h"
 #include "labs/submission/verdict_json.h"
 #include "support/testing.h"
 
 #include <fcntl.h>
-#include <signal.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>

@@ -13,8 +13,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { SIZE = 400, ROUNDS = 15 };
 

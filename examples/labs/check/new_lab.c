@@ -5,7 +5,6 @@
 
 #include "base/input.h"
 #include "base/json_writer.h"
-#include "base/memory.h"
 #include "base/output.h"
 #include "base/output_text.h"
 #include "core/shader_files.h"

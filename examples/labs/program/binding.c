@@ -390,18 +390,6 @@ static void set_value(GLint location, const Uniform *uniform)
     }
 }
 
-static void set_uniforms(GLuint program, const Values *values)
-{
-    GLint count = 0;
-    glGetProgramiv(program, GL_ACTIVE_UNIFORMS, &count);
-    for (GLint i = 0; i < count; i++) {
-        const Uniform uniform = uniform_at(program, i, values);
-        const GLint location = glGetUniformLocation(program, uniform.name);
-        if (uniform.value && location >= 0)
-            set_value(location, &uniform);
-    }
-}
-
 bool binding_draw(const Lab *lab, GLuint program, const MeshBuffer *mesh, const Drawn *drawn,
                   Message *message)
 {
@@ -411,7 +399,14 @@ bool binding_draw(const Lab *lab, GLuint program, const MeshBuffer *mesh, const 
         return false;
     attributes_of(lab, names);
     glUseProgram(program);
-    set_uniforms(program, &values);
+    GLint count = 0;
+    glGetProgramiv(program, GL_ACTIVE_UNIFORMS, &count);
+    for (GLint i = 0; i < count; i++) {
+        const Uniform uniform = uniform_at(program, i, &values);
+        const GLint location = glGetUniformLocation(program, uniform.name);
+        if (uniform.value && location >= 0)
+            set_value(location, &uniform);
+    }
     mesh_buffer_bind(mesh, glGetAttribLocation(program, names[POSITION]),
                      glGetAttribLocation(program, names[NORMAL]));
     const GLint color = glGetAttribLocation(program, names[COLOR]);

@@ -51,11 +51,6 @@ bool lab_scene_open_usual(LabScene *lab_scene, const Lab *lab, double seconds, M
     return false;
 }
 
-static Mat4 placed(Vec3 offset, Mat4 turn, Vec3 factors)
-{
-    return mat4_product(mat4_translate(offset), mat4_product(turn, mat4_scale(factors)));
-}
-
 static LabShape choose_shape(const Lab *lab, LabSceneKind kind, int number, Random *random)
 {
     const LabShape flat[] = {SHAPE_OF_CUBE, SHAPE_OF_ICOSAHEDRON, SHAPE_OF_DODECAHEDRON,
@@ -105,7 +100,8 @@ static Mat4 choose_world(const Lab *lab, LabSceneKind kind, bool flat, double se
     if (lab->two_sided &&
         (kind == LAB_SCENE_MOVED || kind == LAB_SCENE_BEHIND || kind == LAB_SCENE_WIDE))
         factors.x = -factors.x;
-    return placed(offset, mat4_rotate(degrees, axis), factors);
+    return mat4_product(mat4_translate(offset),
+                        mat4_product(mat4_rotate(degrees, axis), mat4_scale(factors)));
 }
 
 /* The direction from the object to the eye. */

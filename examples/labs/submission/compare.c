@@ -4,7 +4,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* Whether a pixel and its neighbors are background only. */
 static bool is_empty(const Reference *exact, int x, int y)

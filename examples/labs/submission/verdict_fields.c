@@ -1,8 +1,6 @@
 /* The one writer of verdicts, natively and in a page, for which a JSON library is too large. */
 #include "labs/submission/verdict_fields.h"
 
-#include <math.h>
-
 static const char *const SETS[] = {"seed", "known", NULL};
 
 #define SIZE(type, member) sizeof(((type *)0)->member)
