@@ -109,6 +109,29 @@ TEST(test_mutants)
     assert_int_equal(sum.named, sum.tried);
 }
 
+/* At all points they are more numbers than an int counts. */
+TEST(test_many_outputs)
+{
+    static Trial trial;
+    static Verdict verdict;
+    SubmissionFiles files = {.count = 0};
+    Message message = {0};
+    trial = (Trial){.lab = &LABS[6 - 1]};
+    assert_true(lab_pictures_open(&trial.pictures, trial.lab, 1, &message));
+    for (int i = 0; i < 2; i++) {
+        trial.texts[i] = read_solution(trial.lab, i);
+        char *text = memory_format("%svarying vec4 v_Many[%d];\n", trial.texts[i], 200000);
+        add_file(&files, trial.lab, i, text);
+        free(trial.texts[i]);
+        free(text);
+    }
+    verdict = (Verdict){.seed = 1};
+    assert_true(diagnose(&trial.pictures, NULL, &files, &verdict, NULL, &message));
+    assert_string_equal(verdict.message, "Unknown mistake");
+    submission_files_close(&files);
+    lab_pictures_close(&trial.pictures);
+}
+
 /* Of lab 8's fragment shader: what stands there, and is named so. */
 TEST(test_names)
 {

@@ -496,6 +496,9 @@ void main()
         self.assertIn("| `wrap` | uniform float | to do |", read(lab, "TASK.md"))
         self.assertTrue(os.path.exists(os.path.join(lab, "expected.png")))
 
+    def test_lines_of_another_number(self):
+        self.assertEqual(self.make(self.VERTEX, "#line 1000\n" + self.FRAGMENT).returncode, 0)
+
     def test_a_solution_that_draws_nothing_is_said(self):
         result = self.make("attribute vec4 aPos;\nvoid main() { gl_Position = vec4(aPos.xyz + 9.0, 1.0); }\n",
                            "precision mediump float;\nvoid main() { gl_FragColor = vec4(1.0); }\n")
@@ -518,6 +521,7 @@ void main()
              "vec2 aTexCoords: no lab has one; there are positions, normals and colours"),
             (self.VERTEX, self.FRAGMENT.replace("uniform float", "uniform sampler2D picture;\nuniform float"),
              "sampler2D picture: no lab has one"),
+            (self.VERTEX, self.FRAGMENT.replace("wrap", "wrap" * 20), "wrapwrap: too many or too long names"),
             (self.VERTEX, self.FRAGMENT.replace("float lit =", "float lot ="), "my.frag:13:"),
         ):
             done = self.make(vertex, fragment)

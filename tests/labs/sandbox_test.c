@@ -1,8 +1,10 @@
 /*
- * sandbox: files and pictures that are not trusted, and what a confined process cannot do.
+ * sandbox: files and pictures that are not trusted, what a confined process cannot do, and how it
+ * ends.
  */
 #include "labs/check/code.h"
 #include "labs/sandbox/png_copy.h"
+#include "labs/sandbox/sandbox.h"
 #include "labs/sandbox/source.h"
 #include "support/testing.h"
 
@@ -149,6 +151,32 @@ TEST_WITH(0, a_confined_process_can_only_compute, start, NULL)
     if (WEXITSTATUS(status) == 255)
         skip();
     assert_int_equal(WEXITSTATUS(status), 0);
+}
+
+/* Of a process that ended with this status, while it worked on a submission. */
+static void assert_end(const char *said, int status, SandboxEnd end, const char *why)
+{
+    char bytes[512] = "", reason[1024];
+    const int size = snprintf(bytes + 1, sizeof bytes - 1, "%s", said);
+    const SandboxRun run = {.bytes = bytes, .size = (size_t)size + 1, .status = status};
+    assert_int_equal(sandbox_end(&run), end);
+    sandbox_reason(&run, reason);
+    assert_string_equal(reason, why);
+}
+
+/* Else a fault of `check` would read as one of the submission. */
+TEST_WITH(0, a_sanitizers_report_is_a_failure_to_judge, start, NULL)
+{
+    assert_end("no memory\n", 1, SANDBOX_CRASHED, "no memory");
+    assert_end("==7==ERROR: AddressSanitizer: heap-buffer-overflow on\n    #0 in line_of\n\n"
+               "SUMMARY: AddressSanitizer: heap-buffer-overflow matrices.c:9 in line_of\n"
+               "Shadow bytes\n==7==ABORTING\n",
+               1, SANDBOX_FAILED,
+               "SUMMARY: AddressSanitizer: heap-buffer-overflow matrices.c:9 in line_of");
+    assert_end("two.c:3:4: runtime error: signed integer overflow\n    #0 in two\n", 1,
+               SANDBOX_FAILED, "two.c:3:4: runtime error: signed integer overflow");
+    assert_end("==7==LeakSanitizer has encountered a fatal error.\n", 1, SANDBOX_FAILED,
+               "==7==LeakSanitizer has encountered a fatal error.");
 }
 
 int main(void)

@@ -51,12 +51,7 @@ typedef struct Making {
 
 static bool has(const char *name, const char *word)
 {
-    char lower[LAB_NAME_SIZE];
-    size_t i = 0;
-    for (; name[i]; i++)
-        lower[i] = (char)tolower((unsigned char)name[i]);
-    lower[i] = '\0';
-    return strstr(lower, word) != NULL;
+    return strcasestr(name, word) != NULL;
 }
 
 static const Rule *rule_of(const char *name, char kind)
@@ -276,8 +271,12 @@ static int before_functions(const Making *making, GlslStage stage)
             first = symbol->place.line;
     }
     const char *end = at; /* of the last line of code: comments before a function go with it */
-    for (int line = 1; line < first; line++, at = strchr(at, '\n') + 1)
-        end = strncmp(at, "//", 2) == 0 || *at == '\n' ? end : strchr(at, '\n') + 1;
+    for (int line = 1; line < first && *at; line++) { /* by a #line there may be fewer */
+        const bool code = strncmp(at, "//", 2) != 0 && *at != '\n';
+        at += strcspn(at, "\n");
+        at += *at == '\n';
+        end = code ? at : end;
+    }
     return (int)(end - making->texts[stage]);
 }
 

@@ -214,13 +214,28 @@ void points_close(Points *points)
 
 /* Shaders. */
 
+static bool is_output(const GlslVariable *variable)
+{
+    return variable->storage == GLSL_VARYING || strcmp(variable->name, "gl_Position") == 0;
+}
+
+/* Drivers do not count what is not used, but each point keeps it. */
+static bool has_few_outputs(PointShader *shader)
+{
+    enum { MOST = 1024 };
+    for (int i = 0; i < shader->code->variable_count && shader->width <= MOST; i++)
+        if (is_output(&shader->code->variables[i]))
+            shader->width += shader->code->variables[i].count;
+    return shader->width <= MOST;
+}
+
 bool point_shader_open(PointShader *shader, const char *text, GlslStage stage)
 {
     *shader = (PointShader){.setting = -1};
     shader->tree = glsl_parse(text, stage, NULL);
     if (shader->tree->message_count == 0 && glsl_check_whole(shader->tree)) {
         shader->code = glsl_compile(shader->tree);
-        if (!shader->code->message.text[0]) {
+        if (!shader->code->message.text[0] && has_few_outputs(shader)) {
             shader->run = glsl_run_open(shader->code);
             shader->run->loops = 1000;
             return true;
@@ -343,17 +358,9 @@ static void set_attributes(const Points *points, PointShader *shader, const Poin
     }
 }
 
-static bool is_output(const GlslVariable *variable)
-{
-    return variable->storage == GLSL_VARYING || strcmp(variable->name, "gl_Position") == 0;
-}
-
 static void prepare(const Points *points, PointShader *shader)
 {
     if (!shader->outputs) {
-        for (int i = 0; i < shader->code->variable_count; i++)
-            if (is_output(&shader->code->variables[i]))
-                shader->width += shader->code->variables[i].count;
         shader->outputs =
             memory_new((size_t)(points->count * POINT_CORNERS * shader->width), sizeof(double));
         shader->done = memory_new((size_t)points->count, sizeof(bool));

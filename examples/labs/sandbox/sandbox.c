@@ -289,10 +289,23 @@ char *sandbox_part(const SandboxRun *run, SandboxPart part, size_t *size)
     return at;
 }
 
+/* What a sanitizer said, if `check` is built with one and itself is at fault, not what it judges.
+ */
+static const char *sanitizer_said(const SandboxRun *run)
+{
+    static const char *const marks[] = {"runtime error: ", "SUMMARY: ", "Sanitizer"};
+    const char *found = NULL;
+    for (size_t i = 0; run->bytes && i < sizeof marks / sizeof marks[0] && !found; i++)
+        found = memmem(run->bytes, run->size, marks[i], strlen(marks[i]));
+    return found;
+}
+
 SandboxEnd sandbox_end(const SandboxRun *run)
 {
     size_t size;
     const bool begun = sandbox_part(run, SANDBOX_WORK, &size) != NULL;
+    if (run->status == 1 && sanitizer_said(run))
+        return SANDBOX_FAILED;
     if (run->timed_out || run->status == 128 + SIGXCPU)
         return SANDBOX_TIMEOUT;
     if (run->status == 0 && !run->too_much && sandbox_part(run, SANDBOX_RESULT, &size))
@@ -315,6 +328,9 @@ void sandbox_reason(const SandboxRun *run, char text[1024])
     size_t rest, end, start;
     const char *result = sandbox_part(run, SANDBOX_RESULT, &rest);
     start = result ? (size_t)(result - said) : run->size;
+    const char *const fault = sanitizer_said(run);
+    if (fault)
+        start = (size_t)(fault - said) + strcspn(fault, "\n");
     do {
         end = start;
         while (end > 0 && (said[end - 1] == '\n' || said[end - 1] == '\0'))

@@ -118,8 +118,8 @@ typedef enum SandboxPart {
 /* NULL: there is none. */
 char *sandbox_part(const SandboxRun *run, SandboxPart part, size_t *size);
 
-/* Why there is no result: the last line before it that does not start with a space, as quoted
- * source lines do, of at most 1000 bytes, without control characters. */
+/* Why there is no result: a sanitizer's line, or the last before it that does not start with a
+ * space, as quoted source lines do; of at most 1000 bytes, without control characters. */
 void sandbox_reason(const SandboxRun *run, char text[1024]);
 
 /* Ends it if it still runs. NULL or zeroed is fine. */
