@@ -485,7 +485,8 @@ class Results(Class):
         self.assertEqual(picture.texts, {})
 
     def test_similar_submissions_are_listed_with_both_texts(self):
-        """Each student writes a line that no other has; the copy has other names, order and layout."""
+        """Each student writes a line that no other has; the copy has other names, order and layout. Lines of both
+        that begin with acc, which may be read as a number, are not the same."""
         last = "gl_FragColor = "
         for i in range(12):
             line = f"float own{i} = fract({i}.5 * v_Position.x) * min({i}.25, v_Position.y);"
@@ -493,10 +494,12 @@ class Results(Class):
         first = """vec2 a = mod(v_Position.xy, 0.3) / 7.5;
             float b = atan(a.x, a.y) + 0.125;
             vec3 c = cross(vec3(a, b), vec3(0.5, 0.25, b));
-            if (b > 0.75) c = reflect(c, c.zyx) - vec3(b);"""
+            if (b > 0.75) c = reflect(c, c.zyx) - vec3(b);
+            float acc = b * 0.61 - 0.01;\n    acc = acc / 3.7 - 0.02 * b;"""
         second = """vec2 other = mod(v_Position.xy, 0.30)/7.5; float _z = 0.125 + /* mine */ atan(other.x,
             other.y); vec3 v = cross(vec3(other, _z), vec3(0.5, 0.25, _z));
-            if (_z > 0.75)\n                v = reflect(v, v.zyx) - vec3(_z);"""
+            if (_z > 0.75)\n                v = reflect(v, v.zyx) - vec3(_z);
+            float acc = 9.5 / _z + 1.25;\n    acc = _z + 4.4 * acc;"""
         for name, text in (("first", first), ("second", second)):
             self.submit(name, lab05_frag=self.frag(replace=((last, f"{text}\n  {last}"),)))
         self.assertEqual(self.run_class("--lab", "5")[0], 0)

@@ -51,12 +51,13 @@ static int compare_bits(const void *a, const void *b)
     return (x->bits < y->bits) - (x->bits > y->bits);
 }
 
-/* The next of the hashes that a line begins with. False: no more, and the line's text follows. */
+/* The next of the hashes that a line begins with. False: no more, and the line's text follows,
+ * which may begin with what strtoul takes for a number, after blanks. */
 static bool next_hash(const char **at, uint32_t *hash)
 {
     char *end;
     *hash = (uint32_t)strtoul(*at, &end, 16);
-    const bool found = end == *at + HASH_DIGITS;
+    const bool found = **at != ' ' && end == *at + HASH_DIGITS;
     *at = found ? end + (*end == ',') : *at + (**at == '-');
     return found;
 }
