@@ -126,8 +126,11 @@ void options_catch_signals(void (*handler)(int), int flags);
  * before a signal ends the process. */
 void options_prepare_process(void);
 
-/* --deterministic: starts the program again with these arguments in an environment that caps the
- * processor; true if that is the environment already. */
+/* "NAME=VALUE" ended by NULL: the environment of --deterministic, which caps the processor. */
+extern const char *const OPTIONS_LEAST[];
+
+/* --deterministic: starts the program again with these arguments in that environment; true if that
+ * is the environment already. */
 bool options_restart(char *const *arguments, Message *message);
 
 /* The beginning of a program: options_prepare_process and options_read, whose message it prints;

@@ -88,12 +88,13 @@ int options_finish(const char *program, int code)
 /* What is read when a library is loaded. Mesa's llvmpipe and OSMesa choose instructions by the
  * processor: F16C is what computes mediump in 16 bits. glibc's libm has its own variants of sin,
  * pow and others for processors with FMA, whose results differ in the last bit. */
+const char *const OPTIONS_LEAST[] = {"GALLIUM_OVERRIDE_CPU_CAPS=sse4.1",
+                                     "LP_NATIVE_VECTOR_WIDTH=128",
+                                     "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4", NULL};
+
 bool options_restart(char *const *arguments, Message *message)
 {
-    static const char *const least[] = {"GALLIUM_OVERRIDE_CPU_CAPS=sse4.1",
-                                        "LP_NATIVE_VECTOR_WIDTH=128",
-                                        "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4", NULL};
-    return process_restart(arguments, least, message);
+    return process_restart(arguments, OPTIONS_LEAST, message);
 }
 
 bool options_begin(Options *options, const Usage *usage, int argc, char *argv[], int *code)

@@ -135,7 +135,8 @@ void cache_prepare_driver(void)
 {
     char folder[PATH_MAX];
     struct stat status;
-    const char *cache = getenv("XDG_CACHE_HOME");
+    const char *own = getenv("MESA_SHADER_CACHE_DIR"),
+               *cache = own ? own : getenv("XDG_CACHE_HOME");
     const struct passwd *user = cache ? NULL : getpwuid(getuid()); /* Mesa does not read HOME */
     snprintf(folder, sizeof folder, "%s%s",
              cache  ? cache

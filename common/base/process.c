@@ -45,18 +45,22 @@ int process_start(pid_t *process, const char *const *arguments, const int files[
     return error;
 }
 
+bool process_has(const char *setting)
+{
+    char **at = environ;
+    while (*at && strcmp(*at, setting) != 0)
+        at++;
+    return *at != NULL;
+}
+
 bool process_restart(char *const *arguments, const char *const *settings, Message *message)
 {
     bool there = true;
     for (; *settings; settings++) {
-        const char *equals = strchr(*settings, '=');
-        char name[64];
-        snprintf(name, sizeof name, "%.*s", (int)(equals - *settings), *settings);
-        const char *value = getenv(name);
-        if (value && strcmp(value, equals + 1) == 0)
+        if (process_has(*settings))
             continue;
         there = false;
-        if (setenv(name, equals + 1, 1) != 0)
+        if (putenv((char *)*settings) != 0) /* which no one changes */
             return message_set(message, "%s: %s", *settings, strerror(errno));
     }
     if (there)

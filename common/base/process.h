@@ -15,9 +15,12 @@
  * ENOENT if there is no such program. */
 int process_start(pid_t *process, const char *const *arguments, const int files[4]);
 
+/* Whether the environment has exactly this "NAME=VALUE". */
+bool process_has(const char *setting);
+
 /* Runs this program again in place of this process, with these arguments and with `settings`,
- * "NAME=VALUE" ended by NULL, in the environment: for what is read before main. Returns true if
- * they are there already, and false if that fails. */
+ * "NAME=VALUE" that stay, ended by NULL, in the environment: for what is read before main. Returns
+ * true if they are there already, and false if that fails. */
 bool process_restart(char *const *arguments, const char *const *settings, Message *message);
 
 /* Forks with a pipe for the child's answer. Returns 0 in the child, where *end is to be written,

@@ -84,19 +84,17 @@ static const char *egl_error(void)
 
 enum { REMEDY_SIZE = 256 };
 
-/* What to do where no driver answers: the variables that choose one, and a limit of the memory that
- * its libraries are mapped to, come before the packages. */
+/* What to do where no driver answers: the variables that choose one come before the packages. */
 static const char *egl_remedy(char remedy[REMEDY_SIZE])
 {
     static const char *const choosing[] = {"GALLIUM_DRIVER",
                                            "MESA_LOADER_DRIVER_OVERRIDE",
+                                           "MESA_GLES_VERSION_OVERRIDE",
                                            "LIBGL_DRIVERS_PATH",
                                            "GBM_BACKENDS_PATH",
                                            "EGL_PLATFORM",
                                            "__EGL_VENDOR_LIBRARY_FILENAMES",
                                            "__EGL_VENDOR_LIBRARY_DIRS"};
-    static const rlim_t least = (rlim_t)512 << 20; /* Mesa's LLVM alone is 120 MB */
-    struct rlimit limit;
     for (size_t i = 0; i < sizeof choosing / sizeof choosing[0]; i++) {
         const char *value = getenv(choosing[i]);
         snprintf(remedy, REMEDY_SIZE, "%s is \"%.100s\": unset it", choosing[i],
@@ -104,17 +102,26 @@ static const char *egl_remedy(char remedy[REMEDY_SIZE])
         if (value)
             return remedy;
     }
-    if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur >= least)
-        return "install the packages libegl1 libegl-mesa0 libgl1-mesa-dri";
-    snprintf(remedy, REMEDY_SIZE, "the limit of memory is %llu MB (ulimit -v): raise it to 512",
-             (unsigned long long)(limit.rlim_cur >> 20));
-    return remedy;
+    return "install the packages libegl1 libegl-mesa0 libgl1-mesa-dri";
+}
+
+/* Mesa's LLVM alone is 120 MB; without memory Mesa is not loaded, says so in many lines, or
+ * crashes. */
+static bool egl_has_memory(Message *message)
+{
+    enum { LEAST = 512 }; /* MB */
+    struct rlimit limit;
+    return getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur >> 20 >= LEAST ||
+           message_set(message, "EGL: the limit of memory is %d MB (ulimit -v): raise it to %d",
+                       (int)(limit.rlim_cur >> 20), LEAST);
 }
 
 static bool egl_load(Message *message)
 {
     if (egl.library)
         return true;
+    if (!egl_has_memory(message))
+        return false;
     void *library = dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL);
     if (!library)
         return message_set(message, "EGL: %s; %s", dlerror(), egl_remedy((char[REMEDY_SIZE]){0}));

@@ -130,8 +130,8 @@ bool image_format_has_alpha(const char *format)
     return found && found->alpha;
 }
 
-/* ulimit -f also limits files in memory, which not every encoder can handle: the limit is lifted
- * while one runs, and applies when the file itself is written. */
+/* ulimit -f also limits files in memory, which not every encoder can handle: the limit is lifted,
+ * as far as it may be, while one runs, and applies when the file itself is written. */
 static struct rlimit lift_file_limit(void)
 {
     struct rlimit limit = {RLIM_INFINITY, RLIM_INFINITY};
@@ -161,8 +161,10 @@ static bool plugin_encode(const Image *image, const char *format, const ImageOpt
     setrlimit(RLIMIT_FSIZE, &limit);
     pthread_mutex_unlock(&lock);
     snprintf(path, sizeof path, "/proc/self/fd/%d", memory);
+    /* A file as long as the limit was cut there, which OpenImageIO may not notice. */
     const char *why = !encoded                             ? reason
                       : !image_file_read(file, path, NULL) ? "not enough memory for the file"
+                      : file->size >= limit.rlim_max       ? strerror(EFBIG)
                       : !file->size                        ? "nothing was written"
                                                            : NULL;
     close(memory);

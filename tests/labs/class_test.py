@@ -15,6 +15,7 @@ import json
 import os
 import pathlib
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -661,6 +662,36 @@ class Results(Class):
                 break
         self.assertRegex(lines[0], "slow: timeout: .*the earlier, better result stays")
         self.assertEqual(self.table()["slow"], before)
+
+    @unittest.skipIf("ASAN_OPTIONS" in os.environ, "a sanitizer takes terabytes of addresses")
+    def test_what_a_machine_cannot_judge_is_its_failure(self):
+        """And judged by the same command where it can."""
+        for name in "a", "b":
+            self.submit(name)
+        limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (64 << 20,) * 2)
+        lines = self.lab5(code=1, preexec_fn=limit)
+        self.assertEqual([re.sub(r"^check: [ab]: ", "", line) for line in lines], [
+            "error: judging failed: EGL: the limit of memory is 64 MB (ulimit -v): raise it to 512"] * 2 + [
+            "check: 2 of 2 could not be judged, which is no fault of theirs; the same command tries them again"])
+        self.assertEqual(self.lab5(), [])
+        self.assertEqual(self.verdicts(), {"a": "right", "b": "right"})
+
+    def test_limits_that_are_less_than_the_sandboxs_are_named(self):
+        """What does not fit into them would be taken for a submission's fault."""
+        self.submit("a")
+        for which, most, said in ((resource.RLIMIT_NOFILE, 16, r"open files \(ulimit -n\) is 16: raise it to 128"),
+                                  (resource.RLIMIT_FSIZE, 9000, r"a file's bytes \(ulimit -f\) is 9000: raise it to \d+"),
+                                  (resource.RLIMIT_CPU, 9, r"processor seconds \(ulimit -t\) is 9: raise it to 80")):
+            result = self.run_it("--class", "class", "--lab", "5", "-o", "out", program=PROGRAM,
+                                 preexec_fn=lambda: resource.setrlimit(which, (most, most)))
+            self.assertEqual(result.returncode, 1)
+            self.assertRegex(result.stderr.decode(), "^check: no submission is judged: .*: the limit of " + said)
+
+    def test_variables_of_the_driver_change_no_verdict(self):
+        """llvmpipe divides by zero with vectors of 7 bits, and draws anything with some others."""
+        for setting in {"LP_NATIVE_VECTOR_WIDTH": "7"}, {"GALLIUM_DRIVER": "nonsense", "LD_PRELOAD": ""}:
+            result = self.run_it("5", SOLUTION, program=PROGRAM, environment=setting)
+            self.assertEqual(result.returncode, 0, result.stdout.decode())
 
     def test_two_runs_do_not_write_into_one_folder(self):
         self.submit("a")

@@ -17,6 +17,7 @@ import pty
 import pwd
 import random
 import re
+import resource
 import shutil
 import signal
 import struct
@@ -551,6 +552,8 @@ class Options(Case):
                      environment=NO_DRIVER)
         self.refused(1, '\nLightedCube: EGL: .*; GALLIUM_DRIVER is "nonsense": unset it',
                      environment={"GALLIUM_DRIVER": "nonsense"}, lines=0)
+        self.refused(1, '^LightedCube: EGL: .*; MESA_GLES_VERSION_OVERRIDE is "1.0": unset it',
+                     environment={"MESA_GLES_VERSION_OVERRIDE": "1.0"})
         self.make("none/libEGL.so.1", "")
         none = {"LD_LIBRARY_PATH": self.path("none")}
         self.refused(1, "^LightedCube: EGL: .*install the packages libegl1 ", environment=none)
@@ -559,6 +562,15 @@ class Options(Case):
         self.assertRegex(result.stdout.decode(), {
             0: r"(?s)libegl1.*can draw with --backend osmesa\.\n$",
             1: r"(?s)libegl1.*libosmesa6.*cannot draw yet\.\n$"}[result.returncode])
+
+
+    @unittest.skipIf("ASAN_OPTIONS" in os.environ, "a sanitizer takes terabytes of addresses")
+    def test_too_little_memory_for_a_driver_is_said_before_it_is_loaded(self):
+        """It would crash, or say so itself in many lines."""
+        for megabytes in 64, 400:
+            limit = (megabytes << 20,) * 2
+            self.refused(1, fr"^LightedCube: EGL: the limit of memory is {megabytes} MB \(ulimit -v\): raise it to 512\n$",
+                         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, limit))
 
 
 class Terminal(Case):
@@ -773,6 +785,16 @@ class Outputs(Case):
             self.assertRegex(result.stderr.decode(), r"^LightedCube: \w+\.png: cannot write: .*\n$")
             self.assertEqual(self.everything(), before)
 
+    @unittest.skipUnless(os.path.exists(MODULE), "built without OpenImageIO")
+    def test_a_format_that_is_cut_at_the_limit_is_not_written(self):
+        """OpenImageIO does not notice that the end of an OpenEXR file is missing."""
+        for blocks in 0, 1:
+            command = ["sh", "-c", 'exec 2>&1; ulimit -f "$0" && exec "$@"', str(blocks),
+                       os.path.join(EXAMPLES, "LightedCube"), *SMALL, "-o", "a.exr"]
+            result = subprocess.run(command, cwd=self.folder, stdout=subprocess.PIPE, timeout=PATIENCE)
+            self.assertEqual((result.returncode, result.stdout), (1, b"LightedCube: cannot write exr: File too large\n"))
+            self.assertEqual(self.everything(), {})
+
     def test_links_and_pipes_are_written_through(self):
         self.make("target.png")
         os.symlink("target.png", self.path("link.png"))
@@ -965,6 +987,7 @@ class Outputs(Case):
         self.make("file")
         for cache in ("", "/proc/none", self.path("file"), self.path("no", "folder")):
             self.good(*SMALL, "-o", "-", environment={"XDG_CACHE_HOME": cache})
+        self.good(*SMALL, "-o", "-", environment={"MESA_SHADER_CACHE_DIR": "/proc/none"})
         self.good(*SMALL, "--error", "2", "-o", "-", environment={"XDG_CACHE_HOME": "/proc/none"},
                   program="SpotLight")
         self.need_somebody()

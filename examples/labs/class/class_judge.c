@@ -31,7 +31,7 @@ typedef struct Judging {
     const Found **late; /* timed out beside others */
     int late_count;
     bool alone; /* these are tried again, one at a time */
-    int done, total;
+    int done, total, failed;
     Progress progress;
 } Judging;
 
@@ -162,8 +162,10 @@ static bool end(Judging *judging, Job *job, Message *message)
     Verdict *verdict = &job->result.verdict;
     Message why = {.text = ""};
     const SandboxedCheck check = {.lab = judging->of->lab, .seed = judging->of->options->seed};
-    if (!sandboxed_check_end(judging->of->sandbox, &job->run, &check, verdict, &why))
+    if (!sandboxed_check_end(judging->of->sandbox, &job->run, &check, verdict, &why)) {
+        judging->failed++;
         return give(judging, job, VERDICT_ERROR, why.text, message);
+    }
     job->result.finished = verdict->kind != VERDICT_TIMEOUT;
     if (job->result.finished || judging->alone)
         return settle(judging, job, message);
@@ -260,5 +262,10 @@ bool class_judge(const ClassJudging *of, Message *message)
     free(queue);
     free(judging.late);
     progress_end(&judging.progress);
-    return done;
+    return done && judging.failed
+               ? message_set(message,
+                             "%d of %d could not be judged, which is no fault of theirs; the same "
+                             "command tries them again",
+                             judging.failed, judging.total)
+               : done;
 }

@@ -44,7 +44,8 @@ typedef struct ClassJudging {
 
 /* Judges submissions without a valid result and puts each result into the store at once; prints one
  * line on standard error for each that could not be judged. Returns early, with true, when
- * *interrupted; false only if results cannot be written or processes cannot be started. */
+ * *interrupted; false only if results cannot be written, processes cannot be started, or some could
+ * not be judged for a reason of this machine. */
 bool class_judge(const ClassJudging *of, Message *message);
 
 /* Whether a submission is in the part that the options name. Depends only on its folder's name, so

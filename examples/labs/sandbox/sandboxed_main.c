@@ -4,7 +4,9 @@
  * taken for what it is, shaders compiled and drawn, C compiled and called. */
 #include "labs/sandbox/sandbox.h"
 
+#include "app/options.h"
 #include "base/output.h"
+#include "base/process.h"
 #include "base/sanitized.h"
 #include "labs/check/judge.h"
 #include "labs/sandbox/source.h"
@@ -26,12 +28,17 @@
 /* Of processor time beyond the submission's. */
 enum { DIAGNOSIS_SECONDS = 70 };
 
-static bool set_limit(__rlimit_resource_t which, rlim_t soft, rlim_t hard, Message *message)
+/* Never more than the current limit. With a name, one that is less is an error, because what does
+ * not fit into it would be taken for the submission's fault. */
+static bool set_limit(__rlimit_resource_t which, rlim_t soft, rlim_t hard, const char *name,
+                      Message *message)
 {
-    /* Never more than the current limit. */
     struct rlimit limit;
     if (getrlimit(which, &limit) != 0)
         return message_set(message, "getrlimit: %s", strerror(errno));
+    if (name && limit.rlim_max < soft)
+        return message_set(message, "the limit of %s is %llu: raise it to %llu", name,
+                           (unsigned long long)limit.rlim_max, (unsigned long long)soft);
     limit.rlim_max = limit.rlim_max < hard ? limit.rlim_max : hard;
     limit.rlim_cur = limit.rlim_max < soft ? limit.rlim_max : soft;
     return setrlimit(which, &limit) == 0 ? true
@@ -58,28 +65,34 @@ static bool become_user(long user, Message *message)
 static bool take_limits(rlim_t seconds, Message *message)
 {
     const rlim_t megabyte = 1 << 20;
-    if (!ADDRESS_SANITIZER &&
-        !set_limit(RLIMIT_AS, SANDBOX_MEMORY * megabyte, SANDBOX_MEMORY * megabyte, message))
+    const rlim_t memory = SANDBOX_MEMORY * megabyte, file = SANDBOX_FILE * megabyte;
+    if (!ADDRESS_SANITIZER && !set_limit(RLIMIT_AS, memory, memory, NULL, message))
         return false;
-    return set_limit(RLIMIT_CPU, seconds, seconds + 1, message) &&
-           set_limit(RLIMIT_FSIZE, SANDBOX_FILE * megabyte, SANDBOX_FILE * megabyte, message) &&
-           set_limit(RLIMIT_NPROC, SANDBOX_PROCESSES, SANDBOX_PROCESSES, message) &&
-           set_limit(RLIMIT_CORE, 0, 0, message) && set_limit(RLIMIT_NOFILE, 128, 128, message);
+    return set_limit(RLIMIT_CPU, seconds, seconds + 1, "processor seconds (ulimit -t)", message) &&
+           set_limit(RLIMIT_FSIZE, file, file, "a file's bytes (ulimit -f)", message) &&
+           set_limit(RLIMIT_NPROC, SANDBOX_PROCESSES, SANDBOX_PROCESSES, NULL, message) &&
+           set_limit(RLIMIT_CORE, 0, 0, NULL, message) &&
+           set_limit(RLIMIT_NOFILE, 128, 128, "open files (ulimit -n)", message);
 }
 
 /* Keeps only what drawing needs. One thread draws, because there is one submission per processor.
  * No cache, because a submission could write to it. */
 static bool set_environment(const char *folder, Message *message)
 {
-    static const char *const kept[] = {
-        "LIGHTING_BACKEND", "ASAN_OPTIONS", "LSAN_OPTIONS", "UBSAN_OPTIONS",
-        /* of --deterministic */
-        "GALLIUM_OVERRIDE_CPU_CAPS", "LP_NATIVE_VECTOR_WIDTH", "GLIBC_TUNABLES"};
+    static const char *const kept[] = {"LIGHTING_BACKEND", "ASAN_OPTIONS", "LSAN_OPTIONS",
+                                       "UBSAN_OPTIONS"};
     enum { KEPT = sizeof kept / sizeof kept[0] };
     const char *values[KEPT];
+    unsigned least =
+        0; /* no other values of these: some let the driver draw something else, or crash */
     for (int i = 0; i < KEPT; i++)
         values[i] = getenv(kept[i]);
+    for (int i = 0; OPTIONS_LEAST[i]; i++)
+        least |= (unsigned)process_has(OPTIONS_LEAST[i]) << i;
     bool done = clearenv() == 0; /* the texts stay where they are */
+    for (int i = 0; OPTIONS_LEAST[i]; i++)
+        if (least >> i & 1)
+            done = putenv((char *)OPTIONS_LEAST[i]) == 0 && done;
     for (int i = 0; i < KEPT; i++)
         if (values[i])
             done = setenv(kept[i], values[i], 1) == 0 && done;
