@@ -125,16 +125,14 @@ static const char *put_value(FILE *file, const Probe *probe, int event, const ch
     static const char NAME[] = "_0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
     char name[CAPTURE_NAME], index[CAPTURE_NAME];
     double value[4];
-    int count = (int)strspn(text, NAME), used = 0;
-    snprintf(name, sizeof name, "%.*s", count, text);
-    text += count;
-    if (sscanf(text, "[%60[_0-9a-zA-Z]]%n", index, &used) == 1 && used) {
-        text += used;
-        const bool known = value_before(probe, event, index, value) == 1;
-        snprintf(name + count, sizeof name - (size_t)count, "[%d]",
-                 known ? (int)value[0] : atoi(index));
-    }
-    count = value_before(probe, event, name, value);
+    const int length = (int)strspn(text, NAME);
+    int used = 0;
+    snprintf(name, sizeof name, "%.*s", length, text);
+    if (sscanf(text + length, "[%60[_0-9a-zA-Z]]%n", index, &used) == 1 && used)
+        snprintf(name, sizeof name, "%.*s[%d]", length, text,
+                 value_before(probe, event, index, value) == 1 ? (int)value[0] : atoi(index));
+    text += length + used;
+    const int count = value_before(probe, event, name, value);
     if (count == 0 || *text == '(' || *text == '[')
         return NULL;
     const int chosen = *text == '.' ? (int)strspn(text + 1, NAME) : 0;

@@ -860,6 +860,19 @@ class Outputs(Case):
         self.assertRegex(text, r"\ngroup\.glsl:\d+  float n_dot_l = dot\(normal, to_light\);\n +n_dot_l: ")
         self.refused(2, "--format json: is of --probe", "--format", "json")
 
+    def test_elements_of_an_array_have_their_numbers(self):
+        """Of names up to 127 characters; a sanitizer says it where a longer one leaves its place."""
+        program = "PointLightedCube_perFragment"
+        with open(os.path.join(SOURCE, "shaders", "lecture", program + ".frag")) as file:
+            text = file.read()
+        for name in "few", "long" * 35:
+            lines = f"vec3 none = {name}[1] * 0.5;\n    gl_FragColor = vec4(none, 0.0) +"
+            self.make(f"mine/{program}.frag", text.replace("gl_FragColor =", lines).replace(
+                "varying vec4", f"uniform vec3 {name}[2];\nvarying vec4"))
+            said = self.good("-s", "60x60", "--precision", "highp", "--shaders", "mine", "--probe", "30,30",
+                             program=program).decode()
+            self.assertEqual("= (0, 0, 0) * 0.5\n" in said, name == "few", said)
+
     def test_each_effect_has_the_lines_that_it_brings_in(self):
         """But those that are no lines: what is left out, culling, and that a light is there."""
         none = re.compile(r"#|$|as view | *without |light |culling |normals not |  dot products clamped|operations|in the full")
