@@ -4,6 +4,7 @@
 usage: book_test.py EXAMPLES_FOLDER_OF_THE_BUILD PAGE_NATIVE SOURCE_FOLDER [unittest's arguments]
 """
 import os
+import pathlib
 import re
 import subprocess
 import sys
@@ -29,6 +30,15 @@ class Numbers(unittest.TestCase):
                 with self.subTest(chapter.path.name, number=text, by=expression):
                     right, value = claims.holds(text, expression)
                     self.assertTrue(right, f"it is {value}")
+
+    def test_the_findings_are_the_tables(self):
+        """So a table that is made anew leaves no old number in the study's text, from which the chapters take theirs."""
+        page = " ".join(pathlib.Path(SOURCE, "examples/study/README.md").read_text(encoding="utf-8").split())
+        for line in pathlib.Path(__file__).with_name("findings.txt").read_text(encoding="utf-8").splitlines()[2:]:
+            pattern, _, expression = line.partition(" = ")
+            with self.subTest(pattern):
+                right, value = claims.holds(re.search(pattern, page)[1], expression)
+                self.assertTrue(right, f"it is {value}")
 
     def test_no_fraction_is_unchecked(self):
         for chapter in CHAPTERS:

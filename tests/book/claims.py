@@ -92,6 +92,22 @@ def operations(effect, column=3):
     return page("examples/study/tables/costs.md", rf"\| {re.escape(effect)} (?:\|[^|]*){{{column - 1}}}\| (\d+) ")
 
 
+def rows(heading, path="examples/study/tables/accuracy.md"):
+    """Of the first table after a heading, the cells of each row but the first."""
+    table = re.search(r"(?:^\|.*\n)+", pathlib.Path(SOURCE, path).read_text(encoding="utf-8").partition("\n" + heading)[2], re.MULTILINE)
+    return [[cell.strip() for cell in line.split("|")[1:-1]] for line in table[0].splitlines()[2:]]
+
+
+def cell(heading, row, column):
+    return float(next(cells[column] for cells in rows(heading) if cells[0] == row))
+
+
+def column(heading, number, row=""):
+    """The numbers of a column, in rows that begin so; medians without their quartiles. Cells without one, such as "same", are left out."""
+    cells = (cells[number].split() for cells in rows(heading) if " ".join(cells).startswith(row))
+    return [float(words[0]) for words in cells if words and words[0] != "same"]
+
+
 def unit(*vector):
     length = math.sqrt(sum(x * x for x in vector))
     return tuple(x / length for x in vector)
@@ -103,7 +119,7 @@ def dot(a, b):
 
 NAMES = {name: value for name, value in vars(math).items() if not name.startswith("_")}
 NAMES.update({function.__name__: function for function in (size, pixels, pixel, colours, difference, changed, error, largest, rms,
-                                                          rms_of_all, said, page, operations, unit, dot)},
+                                                          rms_of_all, said, page, rows, cell, column, operations, unit, dot)},
              sorted=sorted, abs=abs, max=max, min=min, round=round, sum=sum, len=len, set=set, any=any, all=all, int=int, zip=zip, range=range)
 
 
