@@ -1,4 +1,5 @@
-"""The pages: links, anchors and pictures exist, options are in --help, the map of common/ is complete.
+"""The pages: links, anchors and pictures exist, options are in --help, the map of common/ is complete,
+commands print what is shown of them.
 
     pages_test.py EXAMPLES_FOLDER_OF_THE_BUILD SOURCE_FOLDER
 """
@@ -7,6 +8,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 
 examples, root = (pathlib.Path(path).resolve() for path in sys.argv[1:3])
 pages = [root / "README.md", root / "CHANGELOG.md", *sorted(root.glob("[cest]*/**/*.md"))]
@@ -98,6 +100,18 @@ reference = subprocess.run([root / "tests/tables", "--options"], capture_output=
                            env={**os.environ, "LIGHTING_BUILD": str(examples.parent)}).stdout
 check(reference.strip() in (root / "examples/guide/options.md").read_text(), root / "examples/guide/options.md",
       "not what --help says; tests/tables --options prints it")
+
+# A block that begins with a command shows what that prints; "..." stands for more. Times differ from run to run.
+for page in pages:
+    for command, shown in re.findall(r"^ *```\n\$ examples/run (.*)\n((?:.*\n)*?) *```$", page.read_text(), re.MULTILINE):
+        words = command.split()
+        emulated = {"--probe", "--show"}.intersection(words)  # what the pages are of: mediump of 11 bits
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run([examples / words[0], *words[1:], *(["--arithmetic", "llvmpipe"] if emulated else [])], text=True,
+                                  cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=True)
+        printed = re.sub(r"[\d.]+ ms", "1 ms", done.stdout)
+        for line in shown.splitlines():
+            check(re.sub(r"[\d.]+ ms", "1 ms", line.removesuffix("...")) in printed, page, f"{command}: does not print: {line}")
 
 lines = len((root / "README.md").read_text().splitlines())
 check(lines <= 150, root / "README.md", f"{lines} lines; at most 150")
