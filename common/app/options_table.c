@@ -110,7 +110,7 @@ static const Parameter FIRST[] = {
      .programs = GL_FILM | ASIDE},
     {"show",
      "draw a variable of the shaders instead, as in normal.z; error: what rounding changes; "
-     "error:NAME: what of that NAME causes; blame: in which line",
+     "error:NAME: the part of that which NAME causes; blame: the line that causes most",
      PARAMETER_TEXT, .min = 1, .placeholder = "NAME", AT(show), .programs = GL_FILM},
     {"arithmetic",
      "draw what another device would: llvmpipe, llvmpipe-128, softpipe, half, float, or a file or "

@@ -33,12 +33,12 @@
 /* Exact colors are kept in 16 bits, 0.002 steps at most from the exact ones; evaluators round. */
 static const double RESERVE = 0.015;
 
-/* Another setting than the plain one must be expected to save a tenth of a frame; of that so many
- * nanoseconds are no object's. */
+/* A setting other than the plain one must be expected to save a tenth of a frame, which costs FRAME
+ * nanoseconds besides its objects. */
 static const double WORTH = 0.9, FRAME = 50e3;
 
-/* Where the plain one is more exact, it must be expected to take so much of that one's time at
- * most: expectations and times differ. */
+/* Where the plain setting is more exact, another must be expected to take no more than this share
+ * of its time: expectations and times differ. */
 static const double WORTH_ERROR = 0.7;
 
 /* So many of the pixels inside objects may have the edge of a shadow pass over them, in addition to
@@ -175,7 +175,7 @@ static bool draw_parts(const CheapestQualityTask *task, const Scene *scene,
         message);
 }
 
-/* Of two bisections, the relaxations and the end, as often as that has begun. */
+/* Shares of two bisections, the relaxations and the end; the search may begin all that again. */
 static void show_progress(Search *search)
 {
     const int some = 20 + candidate_relaxation_count(&search->scene), done = search->drawn++;

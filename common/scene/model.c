@@ -80,7 +80,7 @@ static bool join(const char *path, const Mesh *parts, Mesh *mesh, Message *messa
     size_t table_size = 1;
     while (table_size < 2 * parts->vertex_count)
         table_size *= 2;
-    /* Of each vertex its place in the mesh, and as the table has them, 0: none yet. */
+    /* Each vertex's place in the mesh, plus 1 as in the table; 0: none yet. */
     uint32_t *table = calloc(table_size + parts->vertex_count, sizeof *table);
     uint32_t *places = table + table_size;
     if (!table)
@@ -117,7 +117,7 @@ static bool is_zero(const float normal[3])
     return normal[0] == 0 && normal[1] == 0 && normal[2] == 0;
 }
 
-/* Computes the missing normals: all of a copy, of which it takes those. */
+/* Gives vertices without a normal that of a copy, all of whose normals are computed. */
 static bool fill_normals(Mesh *mesh, Message *message)
 {
     Mesh copy = *mesh;

@@ -68,7 +68,7 @@ void scene_shading_apply(const SceneShading *shading, Scene *scene);
      .choices = INTERPOLATION_NAMES,                                                               \
      .fixes = 1U << AXIS_INTERPOLATION},                                                           \
     {                                                                                              \
-        "viewer", "where the highlight is computed for: the eye, or a viewer at infinity",         \
+        "viewer", "who sees the highlight: the eye at its place, or a viewer at infinity",         \
             PARAMETER_CHOICE, .value = &(shading).viewer, .choices = VIEWER_NAMES,                 \
                               .fixes = 1U << AXIS_VIEWER                                           \
     }

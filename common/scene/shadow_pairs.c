@@ -1,9 +1,9 @@
 /*
  * For each light that has shadows: an object receives them if another, or itself, may come between
  * it and the light; and that other throws them. For both questions one partner is enough. So each
- * object looks for one alone, first where the one before it found its own: above a floor that is
- * the floor, for all. What is found answers the partner's question, too. Before boxes are compared
- * exactly (shadows/shadow_culling.h), spheres around them rule out most pairs.
+ * object looks for a single one, and tries first the partner of the object before it: above a floor
+ * that is the floor, for all of them. What is found answers the partner's question, too. Before
+ * boxes are compared exactly (shadows/shadow_culling.h), spheres around them rule out most pairs.
  */
 #include "scene/shadow_pairs.h"
 

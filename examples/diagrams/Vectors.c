@@ -51,7 +51,7 @@ static const Parameter parameters[] = {
      .value = &optics.sides, .min = 1, .max = OPTICS_SIDES_MAX},
     {"ambient", "intensity of the light in the figure ambient; elsewhere 0.2", PARAMETER_NUMBER,
      .value = &ambient, .min = 0, .max = 1},
-    {"distance", "of a lamp, in the figure rays in widths of what it lights", PARAMETER_NUMBER,
+    {"distance", "of the lamp; in the figure rays in widths of what it lights", PARAMETER_NUMBER,
      .value = &optics.distance, .min = 0.25, .max = 1e6},
     {"constant", "its attenuation, 1 / (constant + linear d + quadratic d^2)", PARAMETER_NUMBER,
      .value = &optics.constant, .min = 0, .max = 10},

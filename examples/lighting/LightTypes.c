@@ -20,7 +20,7 @@ static Vec3 global_ambient = {0.2, 0.2, 0.2};
 static SceneShading shading = {REFLECTION_BLINN_PHONG, INTERPOLATION_PHONG, VIEWER_LOCAL};
 
 static const Parameter parameters[] = {
-    {"constant", "of 1 / (constant + linear d + quadratic d^2), which arrives at distance d",
+    {"constant", "1 / (constant + linear d + quadratic d^2) of the light arrives at distance d",
      PARAMETER_NUMBER, .value = &constant, .min = 0, .max = 10},
     {"linear", "attenuation by the distance", PARAMETER_NUMBER, .value = &linear, .min = 0,
      .max = 10},

@@ -22,7 +22,7 @@ static Vec3 global_ambient = {0, 0, 0};
 static SceneShading shading = {REFLECTION_PHONG, INTERPOLATION_PHONG, VIEWER_LOCAL};
 
 static const Parameter parameters[] = {
-    {"matrix", "by which normals are transformed", PARAMETER_CHOICE, .value = &matrix,
+    {"matrix", "the matrix by which normals are transformed", PARAMETER_CHOICE, .value = &matrix,
      .choices = MATRICES},
     {"scale", "of the sphere along the axes; 1,1,1: M is orthogonal, and the wrong matrix is right",
      PARAMETER_COLOR, .value = &scale, .min = -5, .max = 5, .placeholder = "X,Y,Z"},

@@ -64,15 +64,15 @@ static const Parameter parameters[] = {
     {"markdown", "print tables of the findings as Markdown, with processor, driver and compiler",
      PARAMETER_FLAG, .value = &markdown},
     {"compare",
-     "measure nothing: show the results in DIR beside those in the folder that is named after it, of "
-     "another driver or machine: errors, and times over the usual setting's",
+     "measure nothing: show the results in DIR beside those in the folder that follows on the "
+     "command line, of another driver or machine: errors, and times over the usual setting's",
      PARAMETER_TEXT, .value = &compared, .placeholder = "DIR", .min = 1, .standard = ""},
     {"prove",
-     "bound the error of all points of each object of a scene, from what is measured of the "
-     "driver's arithmetic, instead of drawing settings",
+     "measure no settings: prove how large the error can be at any point of each object of a "
+     "scene, from what is measured of the driver's arithmetic",
      PARAMETER_CHOICE, .value = &proved, .choices = PROVED},
     {"cameras",
-     "with --prove, from all cameras of these ranges: azimuth and elevation in degrees and factors "
+     "with --prove: for all cameras in these ranges: azimuth and elevation in degrees and factors "
      "of the distance, as --orbit moves the scene's",
      PARAMETER_TEXT, .value = &cameras, .standard = "", .codec = &PROOF_CAMERAS},
     {"seed", "of the order in which settings are measured", PARAMETER_WHOLE, .value = &seed,

@@ -112,7 +112,7 @@ static bool measure(const Options *options, Message *message)
 
 static const Usage usage = {
     .name = "precision",
-    .summary = "what this driver really computes: its floats, its functions, and between vertices",
+    .summary = "what this driver really computes: its floats, its functions, its varyings",
     .details =
         "Nothing is taken from names or from what the driver says of itself: shaders compute,\n"
         "results are compared with the truth. A unit is one in the last place of the exact\n"

@@ -15,7 +15,7 @@ static void put_numbers(const double *numbers, int count, char text[80])
         used += snprintf(text + used, 80 - (size_t)used, "%s%.4g", i ? ", " : "", numbers[i]);
 }
 
-/* Where the point is in its picture, if that is known: a scene of each seed's. */
+/* Where the point is in its picture, if its scene is the same for every seed. */
 static void put_place(const Derivation *all, int point, char text[100])
 {
     const PointSetting *setting = &all->points.settings[all->points.items[point].setting];
@@ -61,7 +61,7 @@ void first_wrong_find(Derivation *all, Verdict *verdict, FirstWrong *first)
         verdict_add_symptom(verdict,
                             "Wrong first, where it is worst%s: %s is %s; right is %s. See %s.",
                             where, name, is, should, place);
-        /* No picture of a colour, nor where no single shader is right. */
+        /* A colour is seen anyway; and where two shaders change, no single one is right. */
         if (strncmp(name, "gl_", 3) == 0 || (changes[1] && changes[0]->stage != changes[1]->stage))
             continue;
         *first = (FirstWrong){.stage = (int)all->stage,
