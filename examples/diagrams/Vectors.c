@@ -86,7 +86,7 @@ const Example Vectors = {
     .height = 450,
     .tries = {"--shininess 0", "--figure incidence --light 80", "--figure lobe -o lobe.svg"},
     .looks = {"the lobe is a half disc: a highlight for every eye",
-              "a flat beam lights a wider place, so each part gets less",
+              "a grazing beam lights a wider place, so each part gets less",
               "diffuse: the same everywhere; specular: about R"},
     .kind = &DIAGRAM_KIND,
     .content = &(const DiagramExample){.compose = compose},
