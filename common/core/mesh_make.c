@@ -5,6 +5,8 @@
  */
 #include "core/mesh_make.h"
 
+#include "base/random.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -57,6 +59,49 @@ bool mesh_copy(Mesh *copy, const Mesh *mesh, Message *message)
     if (mesh->lit_positions)
         memcpy(copy->lit_positions, mesh->lit_positions, size);
     return true;
+}
+
+/* As numbers: zero has two signs. */
+static bool are_equal(const MeshVertex *a, const MeshVertex *b, bool normals)
+{
+    bool equal = true;
+    for (int k = 0; k < 3; k++)
+        equal &= a->position[k] == b->position[k] && (!normals || a->normal[k] == b->normal[k]);
+    return equal;
+}
+
+static uint64_t hash_of(const MeshVertex *vertex, bool normals)
+{
+    Random hash = {0};
+    for (int k = 0; k < (normals ? 6 : 3); k++) {
+        const float value = (k < 3 ? vertex->position[k] : vertex->normal[k - 3]) + 0.0F;
+        uint32_t bits;
+        memcpy(&bits, &value, sizeof bits);
+        hash.state = random_bits(&hash) ^ bits;
+    }
+    return random_bits(&hash);
+}
+
+/* A hash table with open addressing (Knuth, The art of computer programming, volume 3, section 6.4,
+ * algorithm L). */
+bool mesh_weld(const Mesh *mesh, bool normals, uint32_t *first)
+{
+    size_t mask = 15;
+    while (mask < 2 * mesh->vertex_count)
+        mask = 2 * mask + 1;
+    uint32_t *slots = calloc(mask + 1, sizeof *slots); /* a number plus 1; 0: free */
+    for (size_t i = 0; slots && i < mesh->vertex_count; i++) {
+        const MeshVertex *vertex = &mesh->vertices[i];
+        size_t slot = hash_of(vertex, normals) & mask;
+        while (slots[slot] && !are_equal(vertex, &mesh->vertices[slots[slot] - 1], normals))
+            slot = (slot + 1) & mask;
+        if (!slots[slot])
+            slots[slot] = (uint32_t)i + 1;
+        first[i] = slots[slot] - 1;
+    }
+    const bool done = slots != NULL;
+    free(slots);
+    return done;
 }
 
 bool mesh_check_length(const char *shape, const char *what, double length, Message *message)

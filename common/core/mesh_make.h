@@ -14,6 +14,10 @@ bool mesh_open_colors(Mesh *mesh, Message *message);
 
 bool mesh_copy(Mesh *copy, const Mesh *mesh, Message *message);
 
+/* For each vertex the number of the first one at its position and, with `normals`, with its normal.
+ * False: not enough memory. */
+bool mesh_weld(const Mesh *mesh, bool normals, uint32_t *first);
+
 /* Whether a length or a count is in range; else "cone: radius 0: must be...". */
 bool mesh_check_length(const char *shape, const char *what, double length, Message *message);
 bool mesh_check_count(const char *shape, const char *what, int count, int min, int max,

@@ -1,8 +1,6 @@
 /*
- * A file of a scene as one mesh. Equal vertices are merged, by a hash table with open addressing
- * that holds indices (Knuth, The art of computer programming, volume 3, section 6.4, algorithm L):
- * bytes equal in position and normal are one vertex, so that computed normals are smooth across
- * triangles.
+ * A file of a scene as one mesh. Vertices equal in position and normal are merged, so that computed
+ * normals are smooth across triangles.
  */
 #include "scene/model.h"
 
@@ -59,34 +57,18 @@ static bool flatten(const char *path, const SceneFile *file, Mesh *mesh, Message
     return mesh_check(mesh, &why) || message_set(message, "%s: %s", path, why.text);
 }
 
-/* Finds an equal vertex, or an empty slot, in a hash table of indices + 1. */
-static uint32_t *find(uint32_t *table, size_t table_size, const MeshVertex *vertices,
-                      const MeshVertex *vertex)
-{
-    uint32_t words[sizeof *vertex / sizeof(uint32_t)];
-    uint64_t hash = 0;
-    memcpy(words, vertex, sizeof *vertex);
-    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
-        hash = (hash ^ words[i]) * 0x9e3779b97f4a7c15u; /* 2^64 / the golden ratio (Knuth, 6.4) */
-    size_t place = (size_t)(hash >> 32) & (table_size - 1);
-    while (table[place] && memcmp(&vertices[table[place] - 1], vertex, sizeof *vertex) != 0)
-        place = (place + 1) & (table_size - 1);
-    return &table[place];
-}
-
 /* Keeps triangles with an area and the vertices they use, equal ones merged. */
 static bool join(const char *path, const Mesh *parts, Mesh *mesh, Message *message)
 {
-    size_t table_size = 1;
-    while (table_size < 2 * parts->vertex_count)
-        table_size *= 2;
-    /* Each vertex's place in the mesh, plus 1 as in the table; 0: none yet. */
-    uint32_t *table = calloc(table_size + parts->vertex_count, sizeof *table);
-    uint32_t *places = table + table_size;
-    if (!table)
+    /* Of each vertex the first that equals it, and that one's place in the mesh plus 1. */
+    uint32_t *first = calloc(2 * parts->vertex_count + 1, sizeof *first);
+    uint32_t *places = first + parts->vertex_count;
+    if (!first || !mesh_weld(parts, true, first)) {
+        free(first);
         return message_set(message, "%s: not enough memory for its vertices", path);
+    }
     if (!mesh_open(mesh, parts->vertex_count, parts->index_count, message)) {
-        free(table);
+        free(first);
         return false;
     }
     mesh->vertex_count = mesh->index_count = 0;
@@ -95,18 +77,15 @@ static bool join(const char *path, const Mesh *parts, Mesh *mesh, Message *messa
         if (!mesh_face(parts, triangle, &normal))
             continue;
         for (size_t i = 3 * triangle; i < 3 * triangle + 3; i++) {
-            uint32_t *place = &places[parts->indices[i]];
-            const MeshVertex *vertex = &parts->vertices[parts->indices[i]];
-            uint32_t *found = *place ? place : find(table, table_size, mesh->vertices, vertex);
-            if (!*found) {
-                mesh->vertices[mesh->vertex_count++] = *vertex;
-                *found = (uint32_t)mesh->vertex_count;
+            const uint32_t number = first[parts->indices[i]];
+            if (!places[number]) {
+                mesh->vertices[mesh->vertex_count++] = parts->vertices[number];
+                places[number] = (uint32_t)mesh->vertex_count;
             }
-            *place = *found;
-            mesh->indices[mesh->index_count++] = *found - 1;
+            mesh->indices[mesh->index_count++] = places[number] - 1;
         }
     }
-    free(table);
+    free(first);
     if (mesh->index_count == 0)
         return message_set(message, "%s: holds no triangle with an area", path);
     return true;

@@ -11,6 +11,8 @@
 #include "scene/scene_file.h"
 
 #include "base/memory.h"
+#include "base/random.h"
+#include "core/mesh_make.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -232,35 +234,6 @@ double scene_file_spot_exponent(double inner, double outer)
 
 /* Closed meshes */
 
-static uint64_t mixed(uint64_t x) /* splitmix64 (Steele, Lea and Flood, 2014) */
-{
-    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ x >> 27) * 0x94d049bb133111ebu;
-    return x ^ x >> 31;
-}
-
-/* Of each vertex the first one at its position, in `ids`; the table has size - 1 as a mask. */
-static void find_places(const Mesh *mesh, uint32_t *ids, uint32_t *table, size_t size)
-{
-    for (size_t i = 0; i < mesh->vertex_count; i++) {
-        uint32_t words[3];
-        float at[3];
-        for (int k = 0; k < 3; k++)
-            at[k] = mesh->vertices[i].position[k] + 0.0f; /* no -0 */
-        memcpy(words, at, sizeof words);
-        size_t place = mixed(mixed((uint64_t)words[0] << 32 | words[1]) + words[2]) & (size - 1);
-        while (table[place]) {
-            const float *other = mesh->vertices[table[place] - 1].position;
-            if (other[0] == at[0] && other[1] == at[1] && other[2] == at[2])
-                break;
-            place = (place + 1) & (size - 1);
-        }
-        if (!table[place])
-            table[place] = (uint32_t)i + 1;
-        ids[i] = table[place] - 1;
-    }
-}
-
 static uint32_t root_of(uint32_t *parents, uint32_t i)
 {
     while (parents[i] != i)
@@ -270,7 +243,8 @@ static uint32_t root_of(uint32_t *parents, uint32_t i)
 
 static uint64_t edge(uint32_t a, uint32_t b)
 {
-    const uint64_t number = mixed(a < b ? (uint64_t)a << 32 | b : (uint64_t)b << 32 | a);
+    Random ends = {a < b ? (uint64_t)a << 32 | b : (uint64_t)b << 32 | a};
+    const uint64_t number = random_bits(&ends);
     return a < b ? number : -number;
 }
 
@@ -301,16 +275,12 @@ static bool have_volume(const Mesh *mesh, const uint32_t *ids, uint32_t *parents
 
 bool scene_file_is_closed(const Mesh *mesh)
 {
-    size_t size = 1;
     uint64_t sum = 0;
-    while (size < 2 * mesh->vertex_count)
-        size *= 2;
-    uint32_t *ids = calloc(2 * mesh->vertex_count + size, sizeof *ids);
-    if (!ids || mesh->index_count == 0) {
+    uint32_t *ids = calloc(2 * mesh->vertex_count + 1, sizeof *ids);
+    if (!ids || mesh->index_count == 0 || !mesh_weld(mesh, false, ids)) {
         free(ids);
         return false;
     }
-    find_places(mesh, ids, ids + 2 * mesh->vertex_count, size);
     for (size_t i = 0; i < mesh->index_count; i += 3) {
         const uint32_t a = ids[mesh->indices[i]], b = ids[mesh->indices[i + 1]];
         const uint32_t c = ids[mesh->indices[i + 2]];

@@ -1,6 +1,6 @@
 /*
- * Edges are found once for each mesh: vertices at the same place are welded by a hash of their
- * bits, and so are the two directions of an edge. For a volume each triangle then adds 1 or -1 to
+ * Edges are found once for each mesh: vertices at the same place are welded, and by a hash the two
+ * directions of an edge. For a volume each triangle then adds 1 or -1 to
  * the net of its three edges, by whether it faces the light; edges whose net is not zero are the
  * silhouette, and each gets as many sides. The time is linear in the triangles.
  *
@@ -10,6 +10,7 @@
 #include "shadows/silhouette.h"
 
 #include "base/random.h"
+#include "core/mesh_make.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -37,42 +38,6 @@ static uint64_t mix(uint64_t a, uint64_t b)
 {
     Random first = {a}, second = {random_bits(&first) ^ b};
     return random_bits(&second);
-}
-
-/* As bits; zero has two signs. */
-static uint64_t place_hash(const float place[3])
-{
-    uint32_t bits[3];
-    for (int i = 0; i < 3; i++) {
-        const float value = place[i] + 0.0F;
-        memcpy(&bits[i], &value, sizeof value);
-    }
-    return mix(mix(bits[0], bits[1]), bits[2]);
-}
-
-static bool same_place(const float a[3], const float b[3])
-{
-    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
-}
-
-/* For each vertex the first one at the same position. */
-static bool weld(const Mesh *mesh, uint32_t *first)
-{
-    Table table;
-    if (!table_open(&table, mesh->vertex_count))
-        return false;
-    for (size_t i = 0; i < mesh->vertex_count; i++) {
-        const float *place = mesh->vertices[i].position;
-        size_t slot = place_hash(place) & table.mask;
-        while (table.slots[slot] &&
-               !same_place(place, mesh->vertices[table.slots[slot] - 1].position))
-            slot = (slot + 1) & table.mask;
-        if (!table.slots[slot])
-            table.slots[slot] = (uint32_t)i + 1;
-        first[i] = table.slots[slot] - 1;
-    }
-    free(table.slots);
-    return true;
 }
 
 /* The number of the edge between two vertices, new or known, doubled, plus 1 if `from` is not its
@@ -133,7 +98,7 @@ static bool find_edges(Silhouette *made, uint32_t *first)
 {
     const Mesh *mesh = made->mesh;
     Table table;
-    if (!weld(mesh, first) || !table_open(&table, mesh->index_count))
+    if (!mesh_weld(mesh, false, first) || !table_open(&table, mesh->index_count))
         return false;
     for (size_t t = 0; t < made->triangle_count; t++) {
         const uint32_t *indices = mesh->indices + 3 * t;

@@ -7,9 +7,11 @@
  * numbers gives a row of control points. Coordinates in this file are Newell's: z up, the table at
  * z = 0, the mirror plane y = 0.
  */
+#include "base/memory.h"
 #include "core/mesh_make.h"
 #include "shapes/mesh_solids.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 /* Makes four control points from a line of numbers; `number` is that of the patch around. */
@@ -182,16 +184,6 @@ bool mesh_teapot(Mesh *mesh, double size, int divisions, Message *message)
     return mesh_teapot_until(mesh, size, divisions, NULL, message);
 }
 
-/* The first vertex at the position of vertex `i`. */
-static uint32_t first_at(const Mesh *mesh, uint32_t i)
-{
-    const float *place = mesh->vertices[i].position;
-    uint32_t first = 0;
-    while (memcmp(mesh->vertices[first].position, place, sizeof mesh->vertices->position) != 0)
-        first++;
-    return first;
-}
-
 /* Seams and poles are bitwise equal, and no two parts touch: of each place the first vertex gets
  * all triangles that meet there, and the others its normal. */
 bool mesh_teapot_textbook(Mesh *mesh, double size, Message *message)
@@ -207,16 +199,18 @@ bool mesh_teapot_textbook(Mesh *mesh, double size, Message *message)
                 (float)(0.09 * size / 2 * down.value[0] * around.value[2]);
         }
     }
+    uint32_t *first = memory_new(mesh->vertex_count, sizeof *first);
+    bool done = mesh_weld(mesh, false, first);
     for (size_t i = 0; i < mesh->index_count; i++)
-        mesh->indices[i] = first_at(mesh, mesh->indices[i]);
-    if (!mesh_compute_normals(mesh, MESH_WEIGHT_ANGLE, message)) {
-        mesh_close(mesh);
-        return false;
-    }
-    for (uint32_t i = 0; i < mesh->vertex_count; i++)
-        memcpy(mesh->vertices[i].normal, mesh->vertices[first_at(mesh, i)].normal,
+        mesh->indices[i] = first[mesh->indices[i]];
+    done = done && mesh_compute_normals(mesh, MESH_WEIGHT_ANGLE, message);
+    for (size_t i = 0; i < mesh->vertex_count && done; i++)
+        memcpy(mesh->vertices[i].normal, mesh->vertices[first[i]].normal,
                sizeof mesh->vertices->normal);
-    return true;
+    free(first);
+    if (!done)
+        mesh_close(mesh);
+    return done;
 }
 
 bool mesh_teapot_until(Mesh *mesh, double size, int divisions, const atomic_bool *stop,
