@@ -217,6 +217,14 @@ const char *text_nearest(const char *word, const char *const *names)
     return beginnings == 1 ? beginning : nearest;
 }
 
+int text_among(const char *text, const char *const *texts)
+{
+    int i = 0;
+    while (text && texts[i] && strcmp(text, texts[i]) != 0)
+        i++;
+    return text && texts[i] ? i : -1;
+}
+
 uint32_t text_hash(const void *bytes, size_t size)
 {
     uint32_t hash = 2166136261u;

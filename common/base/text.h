@@ -32,6 +32,9 @@ const char *text_comment_end(const char *text);
  * has at most so many bytes: "dot(texture2D(...).rgb, vec3(...))". */
 void text_shorten(char *text, size_t most);
 
+/* The number of a text among others, which end with NULL; -1: it is none of them, or NULL. */
+int text_among(const char *text, const char *const *texts);
+
 /* FNV-1a of 32 bits. */
 uint32_t text_hash(const void *bytes, size_t size);
 

@@ -2,6 +2,7 @@
  * leave open is chosen from the box around everything. */
 #include "scene/file_scene.h"
 
+#include "base/clock.h"
 #include "base/memory.h"
 #include "base/parse.h"
 #include "scene/model.h"
@@ -147,12 +148,6 @@ static double brightness(const Scene *scene, Sphere around)
     return sum;
 }
 
-static int by_size(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* Of the objects, all but the brightest tenth are not brighter. */
 static double usual_brightness(const Scene *scene)
 {
@@ -162,7 +157,7 @@ static double usual_brightness(const Scene *scene)
         const MeshBox box = mesh_bounds(scene->objects[i].mesh);
         all[i] = brightness(scene, scene_sphere(&scene->objects[i], &box));
     }
-    qsort(all, count, sizeof *all, by_size);
+    qsort(all, count, sizeof *all, clock_compare);
     const double found = all[(count - 1) * 9 / 10];
     free(all);
     return found;

@@ -28,9 +28,9 @@ const char *parameter_placeholder(const Parameter *parameter)
 static int find_choice(const Parameter *parameter, const char *text, Message *message)
 {
     const char *const *choices = parameter_choices(parameter);
-    for (int i = 0; choices[i]; i++)
-        if (strcmp(text, choices[i]) == 0)
-            return i;
+    const int found = text_among(text, choices);
+    if (found >= 0)
+        return found;
     const char *nearest = text_nearest(text, choices);
     if (nearest)
         message_set(message, "--%s %s: there is none; did you mean %s?", parameter->name, text,

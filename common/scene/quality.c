@@ -3,6 +3,7 @@
 #include "scene/quality.h"
 
 #include "base/memory.h"
+#include "base/text.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -110,15 +111,6 @@ void quality_text(const Quality *quality, char text[QUALITY_TEXT_SIZE])
         snprintf(text, QUALITY_TEXT_SIZE, "usual");
 }
 
-/* The index of `name` in `names`; -1 if absent. */
-static int number_among(const char *const *names, const char *name)
-{
-    for (int i = 0; names[i]; i++)
-        if (strcmp(names[i], name) == 0)
-            return i;
-    return -1;
-}
-
 static void join(const char *const *names, char *text, size_t size)
 {
     size_t used = 0;
@@ -133,13 +125,13 @@ bool quality_choose(Quality *quality, const char *axis, const char *choice, Mess
     char known[256];
     for (int i = 0; i < AXIS_COUNT; i++)
         names[i] = QUALITY_AXES[i].name;
-    const int found = number_among(names, axis);
+    const int found = text_among(axis, names);
     if (found < 0) {
         join(names, known, sizeof known);
         return message_set(message, "%s: no such choice; there are %s", axis, known);
     }
     const QualityAxisInfo *info = &QUALITY_AXES[found];
-    const int number = number_among(info->choices, choice);
+    const int number = text_among(choice, info->choices);
     if (number < 0) {
         join(info->choices, known, sizeof known);
         return message_set(message, "%s=%s: must be one of %s", axis, choice, known);

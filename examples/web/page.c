@@ -4,6 +4,7 @@
 
 #include "app/command.h"
 #include "base/json_writer.h"
+#include "base/text.h"
 #include "choose/error_worker.h"
 #include "web/all_examples.h"
 #include "kinds/scene_views.h"
@@ -34,17 +35,9 @@ PageState page;
 
 static ParameterValue defaults[COUNT][OPTIONS_MAX_PARAMETERS];
 
-static bool is_one_of(const char *name, const char *const *names)
-{
-    for (; *names; names++)
-        if (strcmp(name, *names) == 0)
-            return true;
-    return false;
-}
-
 static bool is_shown(const Parameter *option, bool own)
 {
-    return own ? !is_one_of(option->name, ABSENT) : is_one_of(option->name, SHOWN);
+    return own ? text_among(option->name, ABSENT) < 0 : text_among(option->name, SHOWN) >= 0;
 }
 
 /* Saved before the first command line is read; restored before each. */
@@ -172,7 +165,7 @@ static bool check_argument(const Example *example, const char *argument, Message
     snprintf(name, sizeof name, "%.*s", (int)strcspn(argument + 2, "="), argument + 2);
     for (int i = 0; table[i].name; i++)
         if (strcmp(table[i].name, name) == 0)
-            return (i < common ? is_one_of(name, SHOWN) : !is_one_of(name, ABSENT)) ||
+            return (i < common ? text_among(name, SHOWN) >= 0 : text_among(name, ABSENT) < 0) ||
                    message_set(message, "--%s: not in the browser; the command has it", name);
     return message_set(message, "--%s: %s has no such option", name, example->name);
 }

@@ -2,6 +2,7 @@
  * glsl_bound: of random shaders over random pieces, the exact result is in its range and the
  * driver's within the error, in highp and in mediump; what is tight, and what has no bound.
  */
+#include "base/clock.h"
 #include "base/random.h"
 #include "glsl/glsl_bound.h"
 #include "support/testing.h"
@@ -245,12 +246,6 @@ static double check_shader(Random *random, bool narrow, const GlslErrors *errors
     return ran && isfinite(bound.error) ? bound.error / fmax(most, 1e-30) : (double)INFINITY;
 }
 
-static int compare(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 TEST(results_are_within_their_bounds)
 {
     const GlslErrors errors = rounded_errors();
@@ -262,7 +257,7 @@ TEST(results_are_within_their_bounds)
         ratios[i] = check_shader(&random, i % 2, &errors);
         bounded += isfinite(ratios[i]);
     }
-    qsort(ratios, (size_t)count, sizeof *ratios, compare);
+    qsort(ratios, (size_t)count, sizeof *ratios, clock_compare);
     print_message("%d shaders, %d bounded; of these half within %.2f of the error found\n", count,
                   bounded, ratios[bounded / 2]);
     assert_true(bounded > count * 9 / 10);

@@ -61,14 +61,6 @@ static const char *next_line(const char *line)
     return *line ? line + 1 : line;
 }
 
-static bool is_one_of(const char *word, const char *const *words)
-{
-    for (; *words; words++)
-        if (strcmp(word, *words) == 0)
-            return true;
-    return false;
-}
-
 static const char *const CONDITIONS[] = {"if", "ifdef", "ifndef", "elif", NULL};
 static const char *const PRECISIONS[] = {"lowp", "mediump", "highp", NULL};
 static const char *const UNREAD[] = {"extension", "version", "pragma", "line", "error", NULL};
@@ -88,7 +80,7 @@ static bool is_dependent(const Reader *reader, const char *token)
     for (int i = 0; i < reader->name_count; i++)
         if (strcmp(token, reader->names[i]) == 0)
             return true;
-    return is_one_of(token, ALLOWED);
+    return text_among(token, ALLOWED) >= 0;
 }
 
 /* Whether a line names an allowed macro, or one that depends on such; false, with a message, in
@@ -100,7 +92,7 @@ static bool names_macro(const Reader *reader, const char *p, bool condition, boo
     while ((p = next_token(p, token)) && *allowed) {
         const bool macro = strncmp(token, "GL_", 3) == 0;
         if (strcmp(token, "__VERSION__") == 0 || strncmp(token, "gl_Max", 6) == 0 ||
-            (macro && (!condition || !is_one_of(token, ALLOWED))))
+            (macro && (!condition || text_among(token, ALLOWED) < 0)))
             *allowed = message_set(reader->message,
                                    "depends on %s, which another compiler gives another value; "
                                    "remove it",
@@ -122,7 +114,7 @@ static bool check_restricted(const Reader *reader, const char *p, bool define)
         p = next_token(p, token); /* its name */
     while (p && (p = next_token(p, token))) {
         precision |= strcmp(token, "precision") == 0 && !define;
-        if (!precision && !is_one_of(token, PRECISIONS))
+        if (!precision && text_among(token, PRECISIONS) < 0)
             return message_set(reader->message,
                                "depends on GL_ES or GL_FRAGMENT_PRECISION_HIGH in more than "
                                "precision, at \"%s\"; remove the condition",
@@ -137,9 +129,9 @@ static bool read_line(Reader *reader, const char *line)
     char word[NAME_SIZE] = "";
     const char *rest = line;
     const bool directive = is_directive(line, word, &rest);
-    const bool condition = directive && is_one_of(word, CONDITIONS);
+    const bool condition = directive && text_among(word, CONDITIONS) >= 0;
     bool allowed = true;
-    if (directive && is_one_of(word, UNREAD))
+    if (directive && text_among(word, UNREAD) >= 0)
         return true;
     const bool dependent = names_macro(reader, rest, condition, &allowed);
     if (!allowed)

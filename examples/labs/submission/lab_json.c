@@ -81,16 +81,14 @@ static bool read_vector(const Reading *reading, const char *name, const json_t *
 static bool read_choice(const Reading *reading, const Key *key, const json_t *value)
 {
     char what[256] = "must be one of";
-    const char *text = json_string_value(value);
-    for (int i = 0; key->choices[i]; i++) {
-        if (text && strcmp(text, key->choices[i]) == 0) {
-            *(int *)((char *)&reading->folder->lab + key->offset) = i;
-            return true;
-        }
+    const int found = text_among(json_string_value(value), key->choices);
+    if (found >= 0)
+        *(int *)((char *)&reading->folder->lab + key->offset) = found;
+    for (int i = 0; key->choices[i] && found < 0; i++) {
         const size_t used = strlen(what);
         snprintf(what + used, sizeof what - used, "%s \"%s\"", i ? "," : "", key->choices[i]);
     }
-    return fail(reading, key->name, what);
+    return found >= 0 || fail(reading, key->name, what);
 }
 
 static bool read_key(Reading *reading, const Key *key, const json_t *value)
@@ -131,14 +129,12 @@ static bool read_object(Reading *reading, const char *name, const json_t *object
         names[i] = keys[i].name;
     json_object_foreach((json_t *)object, found, value)
     {
-        int i = 0;
-        while (names[i] && strcmp(names[i], found) != 0)
-            i++;
+        const int i = text_among(found, names);
         const char *nearest = text_nearest(found, names);
         snprintf(what, sizeof what, "no such key; %s%s%s",
                  nearest ? "did you mean \"" : "TEACHING.md lists them", nearest ? nearest : "",
                  nearest ? "\"?" : "");
-        if (names[i] ? !read_key(reading, &keys[i], value) : fail(reading, found, what))
+        if (i >= 0 ? !read_key(reading, &keys[i], value) : fail(reading, found, what))
             return false;
     }
     for (int i = 0; keys[i].name; i++)

@@ -59,16 +59,6 @@ bool verdict_number(const json_t *object, const char *name, double min, double m
     return to_number(json_object_get(object, name), name, min, max, number, message);
 }
 
-/* The index of a text among the choices; -1: it is none. */
-static int find_choice(const json_t *value, const char *const *choices)
-{
-    const char *text = json_string_value(value);
-    for (int i = 0; text && choices[i]; i++)
-        if (strcmp(text, choices[i]) == 0)
-            return i;
-    return -1;
-}
-
 static bool read_fields(const json_t *object, const Field *fields, char *record, Message *message);
 
 static bool read_list(const json_t *list, const Field *field, char *record, Message *message)
@@ -89,7 +79,7 @@ static bool read_field(const json_t *value, const Field *field, char *record, Me
 {
     void *at = record + field->offset;
     const char *name = field->name ? field->name : "symptoms";
-    const int choice = field->choices ? find_choice(value, field->choices) : 0;
+    const int choice = field->choices ? text_among(json_string_value(value), field->choices) : 0;
     double number = 0;
     if (choice < 0)
         return message_set(message, "\"%s\": is none of the known values", name);

@@ -1,5 +1,6 @@
 #include "study/report/conclusions.h"
 
+#include "base/clock.h"
 #include "study/measure/scenes.h"
 
 #include <math.h>
@@ -111,12 +112,6 @@ static const char *verdict_of(int slower, double more)
                                                   : words[slower + 1][worse + 1];
 }
 
-static int compare_numbers(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* "time x 1.80, 1.10 to 3.20" and the verdict; `slower`: of the ratios so many surely are, or,
  * below 0, are surely less. */
 static void judge(Glance *glance, double *ratios, int count, int slower)
@@ -130,8 +125,7 @@ static void judge(Glance *glance, double *ratios, int count, int slower)
                                             : "more exact");
         return;
     }
-    qsort(ratios, (size_t)count, sizeof *ratios, compare_numbers);
-    glance->ratio = (ratios[(count - 1) / 2] + ratios[count / 2]) / 2;
+    glance->ratio = clock_median(ratios, count); /* sorts them */
     glance->least = ratios[0];
     glance->most = ratios[count - 1];
     const int used = snprintf(glance->time, GLANCE_TEXT, "time x %.2f", glance->ratio);
