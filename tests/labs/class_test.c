@@ -2,8 +2,10 @@
  * class: names, verdicts from the sandbox, which result stays, and that students' text is escaped.
  */
 #include "labs/class/class_find.h"
+#include "labs/class/class_report.h"
 #include "labs/class/class_store.h"
 #include "labs/sandbox/bundle.h"
+#include "labs/sandbox/sandboxed_check.h"
 #include "labs/submission/verdict_json.h"
 #include "support/testing.h"
 
@@ -113,6 +115,42 @@ TEST_WITH(0, a_verdict_is_read, start, NULL)
     assert_string_equal(verdict.details, "a\nb");
     assert_true(isinf(verdict.probes[0].maximum));
     assert_string_equal(verdict.picture, "worst.png");
+}
+
+/* A result of the sandbox may have as many as a list has room for, of which one is for lateness. */
+TEST_WITH(0, a_verdict_has_the_labs_parts, start, NULL)
+{
+    static Verdict verdict;
+    char bytes[2048] = "";
+    const Lab lab = {.name = "lab05_per_fragment",
+                     .points = {.parts = {{"p", 1}}, .part_count = 1}};
+    const SandboxedCheck check = {.lab = &lab, .seed = 7};
+    const char *const probes = strstr(GOOD, "\"probes\"");
+    static const char *const names[] = {"", "p", "q", "ppppppppppppp"};
+    for (int k = 0; k < 4; k++) {
+        size_t size = 2; /* SANDBOX_WORK, SANDBOX_RESULT */
+        size += (size_t)sprintf(bytes + size, "%.*s\"parts\":[", (int)(probes - GOOD), GOOD);
+        for (int i = 0; names[k][i]; i++)
+            size += (size_t)sprintf(
+                bytes + size, "%s{\"name\":\"%c\",\"points\":0,\"most\":1,\"state\":\"wrong\"}",
+                i ? "," : "", names[k][i]);
+        size += (size_t)sprintf(bytes + size, "],%s", probes);
+        const SandboxRun run = {.bytes = bytes, .size = size};
+        assert_int_equal(sandboxed_check_end(NULL, &run, &check, &verdict, &message), k == 1);
+    }
+    assert_string_equal(message.text, "invalid result: it is of another lab, seed or parts");
+}
+
+TEST_WITH(0, names_of_all_mistakes_have_room, start, NULL)
+{
+    static Verdict verdict;
+    char names[CLASS_NAMES_SIZE];
+    verdict.mistake_count = VERDICT_MAX_MISTAKES;
+    const size_t longest = sizeof verdict.mistakes[0].name - 1;
+    for (int i = 0; i < VERDICT_MAX_MISTAKES; i++)
+        memset(verdict.mistakes[i].name, 'a', longest);
+    class_mistake_names(&verdict, names);
+    assert_int_equal(strlen(names), VERDICT_MAX_MISTAKES * (longest + 2) - 2);
 }
 
 /* Reads GOOD with its first `old` replaced by `new`. */

@@ -43,7 +43,7 @@ bool class_unpack(const char *path, const char *folder, Message *message);
 void class_table_csv_field(FILE *file, const char *text);
 
 /* The mistakes of a verdict, between semicolons. */
-enum { CLASS_NAMES_SIZE = VERDICT_MAX_MISTAKES * 80 };
+enum { CLASS_NAMES_SIZE = VERDICT_MAX_MISTAKES * (sizeof((VerdictMistake *)NULL)->name + 2) };
 void class_mistake_names(const Verdict *verdict, char names[CLASS_NAMES_SIZE]);
 
 /* A mistake and how many students make it. */

@@ -49,6 +49,16 @@ static void explain_end(const SandboxRun *run, double limit, Verdict *verdict)
     }
 }
 
+/* Their names go into tables as they are, and one more is added for lateness. */
+static bool has_parts(const Verdict *verdict, const LabPoints *points)
+{
+    bool same = verdict->part_count == points->part_count;
+    for (int i = 0; i < points->part_count && same; i++)
+        same = strncmp(verdict->parts[i].name, points->parts[i].name,
+                       sizeof verdict->parts[i].name - 1) == 0;
+    return same;
+}
+
 bool sandboxed_check_end(const Sandbox *sandbox, const SandboxRun *run, const SandboxedCheck *check,
                          Verdict *verdict, Message *message)
 {
@@ -68,8 +78,9 @@ bool sandboxed_check_end(const Sandbox *sandbox, const SandboxRun *run, const Sa
     const char *result = sandbox_part(run, SANDBOX_RESULT, &size);
     if (!verdict_read(result, size, lab, verdict, &why))
         return message_set(message, "invalid result: %.1000s", why.text);
-    if (strcmp(lab, check->lab->name) != 0 || verdict->seed != check->seed)
-        return message_set(message, "invalid result: it is of another lab or seed");
+    if (strcmp(lab, check->lab->name) != 0 || verdict->seed != check->seed ||
+        !has_parts(verdict, &check->lab->points))
+        return message_set(message, "invalid result: it is of another lab, seed or parts");
     return true;
 }
 
