@@ -1,12 +1,12 @@
 /*
  * OBJ files and their materials (Wavefront's Advanced Visualizer, appendix B). A mesh for each
- * group and material, whose corners of equal position and normal are one vertex. Polygons are cut
- * at ears: corners whose triangle holds no other corner (Meisters, Polygons have ears, 1975).
+ * group and material, whose corners of equal position and normal are one vertex.
  */
 #include "base/input.h"
 #include "base/memory.h"
 #include "core/mesh_make.h"
 #include "scene/model_module.h"
+#include "scene/polygon.h"
 #include "scene/texture_mean.h"
 
 #include <fcntl.h>
@@ -267,57 +267,19 @@ static bool take_corner(Obj *obj, int *vertex)
     return true;
 }
 
-static void add_triangle(Obj *obj, const int corners[3])
-{
-    for (int k = 0; k < 3; k++)
-        *(uint32_t *)memory_add(&obj->indices, &obj->index_count, &obj->index_room,
-                                sizeof *obj->indices) = (uint32_t)corners[k];
-}
-
-static Vec3 place_of(const Obj *obj, int number)
-{
-    const int vertex = obj->polygon[number % obj->polygon_count];
-    return vec3_from_float(obj->positions.all[obj->corners[vertex].position]);
-}
-
-/* How much a, b, c turn in the direction of the polygon. */
-static double turn(Vec3 a, Vec3 b, Vec3 c, Vec3 normal)
-{
-    return vec3_dot(vec3_cross(vec3_subtract(b, a), vec3_subtract(c, b)), normal);
-}
-
-static bool is_ear(const Obj *obj, int i, Vec3 normal)
-{
-    const Vec3 a = place_of(obj, i), b = place_of(obj, i + 1), c = place_of(obj, i + 2);
-    bool empty = turn(a, b, c, normal) > 0;
-    for (int k = i + 3; k < i + obj->polygon_count && empty; k++) {
-        const Vec3 p = place_of(obj, k);
-        empty =
-            !(turn(a, b, p, normal) > 0 && turn(b, c, p, normal) > 0 && turn(c, a, p, normal) > 0);
-    }
-    return empty;
-}
-
 static void add_polygon(Obj *obj)
 {
-    int *p = obj->polygon, missed = 0;
-    Vec3 normal = {0, 0, 0}; /* Newell's: twice the area */
-    for (int i = 1; i + 1 < obj->polygon_count; i++)
-        normal =
-            vec3_add(normal, vec3_cross(vec3_subtract(place_of(obj, i), place_of(obj, 0)),
-                                        vec3_subtract(place_of(obj, i + 1), place_of(obj, 0))));
-    for (int i = 0; obj->polygon_count > 3; i %= obj->polygon_count) {
-        const int n = obj->polygon_count, cut = (i + 1) % n;
-        if (missed < n && !is_ear(obj, i, normal)) { /* else it crosses itself, or has no area */
-            i++, missed++;
-            continue;
-        }
-        add_triangle(obj, (const int[]){p[i], p[cut], p[(i + 2) % n]});
-        memmove(p + cut, p + cut + 1, (size_t)(n - cut - 1) * sizeof *p);
-        obj->polygon_count--;
-        missed = missed < n ? 0 : n;
-    }
-    add_triangle(obj, p);
+    const int count = obj->polygon_count;
+    Vec3 *places = memory_new((size_t)count, sizeof *places);
+    int *triangles = memory_new(3 * (size_t)count, sizeof *triangles);
+    for (int i = 0; i < count; i++)
+        places[i] = vec3_from_float(obj->positions.all[obj->corners[obj->polygon[i]].position]);
+    polygon_cut(places, count, triangles);
+    for (int i = 0; i < 3 * (count - 2); i++)
+        *(uint32_t *)memory_add(&obj->indices, &obj->index_count, &obj->index_room,
+                                sizeof *obj->indices) = (uint32_t)obj->polygon[triangles[i]];
+    free(places);
+    free(triangles);
 }
 
 static bool read_face(Obj *obj)

@@ -3,6 +3,7 @@
  */
 #include "base/output_text.h"
 #include "base/plugin.h"
+#include "base/random.h"
 #include "base/template.h"
 #include "scene/model.h"
 #include "support/testing.h"
@@ -234,6 +235,55 @@ TEST(polygons_are_triangulated_and_degenerate_ones_dropped)
     assert_bounds(&mesh, (Vec3){0, -1, 0}, (Vec3){2, 1, 0}, 0);
     for (size_t i = 0; i < 4; i++)
         assert_true(mesh.vertices[i].normal[2] == 1);
+}
+
+/* A point of a closed curve without crossings, 0 <= t < 1: a circle, a gear, rays of random
+ * lengths, a band that winds up and back. */
+static void curve_point(int kind, double t, Random *chance, double at[2])
+{
+    const double turn = 6.283185307179586, gear = fmod(400 * t, 1) < 0.5 ? 1 : 1.3;
+    const double back = t < 0.5 ? 2 * t : 2 - 2 * t;
+    const double radius[] = {1, gear, random_between(chance, 0.3, 1.3),
+                             0.1 + 0.9 * back + (t < 0.5 ? 0 : 0.04)};
+    const double angle = turn * (kind == 3 ? 10 * back : t);
+    at[0] = radius[kind] * cos(angle);
+    at[1] = radius[kind] * sin(angle);
+}
+
+/* Overlapping and turned triangles would have more area together; a file of this size is refused
+ * if that takes the square of the number of corners. */
+TEST(polygons_of_many_corners_keep_their_area)
+{
+    static const int counts[] = {1000, 10000, 100000};
+    for (int i = 0; i < 12; i++) {
+        const int count = counts[i % 3];
+        Random chance = {(uint64_t)i};
+        double area = 0, at[2], before[2] = {0, 0}, first[2] = {0, 0};
+        FILE *obj = fopen("many.obj", "w");
+        assert_non_null(obj);
+        for (int k = 0; k < count; k++) {
+            curve_point(i / 3, (k + 0.5) / count, &chance, at);
+            area += before[0] * at[1] - before[1] * at[0];
+            memcpy(before, at, sizeof before);
+            if (k == 0)
+                memcpy(first, at, sizeof first);
+            fprintf(obj, "v %.9f %.9f %.9f\n", at[0], at[1], at[0] + at[1] / 2);
+        }
+        area += before[0] * first[1] - before[1] * first[0];
+        fprintf(obj, "f");
+        for (int k = 1; k <= count; k++)
+            fprintf(obj, " %d", k);
+        assert_int_equal(fclose(obj), 0);
+        CLOSED(mesh_close) Mesh mesh;
+        Message message = {0};
+        if (!model_read("many.obj", MODEL_UP_FILE, &mesh, &message))
+            fail_msg("%s", message.text);
+        const double expected = fabs(area) / 2 * 1.5; /* the normal is (-1, -1/2, 1) */
+        if (!(fabs(topology_area(&mesh) - expected) <= 1e-5 * expected))
+            fail_msg("kind %d, %d corners: area %g, not %g", i / 3, count, topology_area(&mesh),
+                     expected);
+    }
+    assert_int_equal(unlink("many.obj"), 0);
 }
 
 TEST(a_ply_file_is_read_as_text_and_as_bytes)
