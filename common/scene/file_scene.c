@@ -119,6 +119,22 @@ static Camera file_camera(const FileScene *made)
 
 /* Lights */
 
+/* Intensities grow with the square of the file's unit of length. A light that is as many times
+ * weaker and loses as much less on its way is the same. */
+static void scale_intensity(Light *light, double exposure)
+{
+    static const double MOST = 1e6; /* of a scene */
+    const double color =
+        exposure * fmax(fmax(light->diffuse.x, light->diffuse.y), light->diffuse.z);
+    const double scale =
+        color > MOST && light->constant + light->linear + light->quadratic > 0 ? 1 / color : 1;
+    light->diffuse = vec3_scale(light->diffuse, scale * exposure);
+    light->specular = vec3_scale(light->specular, scale * exposure);
+    light->constant *= scale;
+    light->linear *= scale;
+    light->quadratic *= scale;
+}
+
 static Light light_at(const FileScene *made, const FileLight *from)
 {
     Light light = from->light;
@@ -129,38 +145,75 @@ static Light light_at(const FileScene *made, const FileLight *from)
     }
     if (light.kind != LIGHT_POINT && vec3_length(light.direction) == 0)
         light.direction = (Vec3){0, -1, 0};
-    light.diffuse = vec3_scale(light.diffuse, made->exposure);
-    light.specular = vec3_scale(light.specular, made->exposure);
+    scale_intensity(&light, made->exposure);
     return light;
 }
 
-/* What a white surface in an object's middle that faces all lights reflects at most; a near light
- * is half the object's radius away. */
-static double brightness(const Scene *scene, Sphere around)
+/* What a white surface in an object's middle that faces a light reflects at most; a near light is
+ * half the object's radius away. */
+static double brightness(const Light *light, Sphere around)
 {
-    double sum = 0;
-    for (int i = 0; i < scene->light_count; i++) {
-        const Light *light = &scene->lights[i];
-        const double away = vec3_length(vec3_subtract(light->position, around.center));
-        const double color = fmax(fmax(light->diffuse.x, light->diffuse.y), light->diffuse.z);
-        sum += color * light_attenuation(light, fmax(away, around.radius / 2));
-    }
-    return sum;
+    const double away = vec3_length(vec3_subtract(light->position, around.center));
+    return fmax(fmax(light->diffuse.x, light->diffuse.y), light->diffuse.z) *
+           light_attenuation(light, fmax(away, around.radius / 2));
+}
+
+static Sphere sphere_around(const FileScene *made, int number)
+{
+    const FileObject *from = &made->file.objects[number];
+    const Object object = {.mesh = &made->file.meshes[from->mesh],
+                           .world_from_object = made->poses[from->node]};
+    const MeshBox box = mesh_bounds(object.mesh);
+    return scene_sphere(&object, &box);
 }
 
 /* Of the objects, all but the brightest tenth are not brighter. */
-static double usual_brightness(const Scene *scene)
+static double usual_brightness(const FileScene *made)
 {
-    const size_t count = (size_t)scene->object_count;
+    const size_t count = (size_t)made->file.object_count;
     double *all = memory_new(count, sizeof *all);
     for (size_t i = 0; i < count; i++) {
-        const MeshBox box = mesh_bounds(scene->objects[i].mesh);
-        all[i] = brightness(scene, scene_sphere(&scene->objects[i], &box));
+        const Sphere around = sphere_around(made, (int)i);
+        for (int k = 0; k < made->file.light_count; k++)
+            all[i] += brightness(&made->lights[k], around);
     }
     qsort(all, count, sizeof *all, clock_compare);
     const double found = all[(count - 1) * 9 / 10];
     free(all);
     return found;
+}
+
+/* Of more lights than a scene may have, those that are brightest at any object, or at some of very
+ * many. */
+static void keep_brightest_lights(FileScene *made)
+{
+    static const long long MOST = 10000000;
+    SceneFile *file = &made->file;
+    const int count = file->light_count, spare = count - EFFECTS_MAX_LIGHTS;
+    const int step = 1 + (int)((long long)count * file->object_count / MOST);
+    if (spare <= 0)
+        return;
+    double *most = memory_new(2 * (size_t)count, sizeof *most), *sorted = most + count;
+    for (int i = 0; i < file->object_count; i += step) {
+        const Sphere around = sphere_around(made, i);
+        for (int k = 0; k < count; k++) {
+            const Light light = light_at(made, &file->lights[k]);
+            most[k] = fmax(most[k], brightness(&light, around));
+        }
+    }
+    memcpy(sorted, most, (size_t)count * sizeof *most);
+    qsort(sorted, (size_t)count, sizeof *sorted, by_size);
+    const double least = sorted[spare];
+    int kept = 0, equal = 0; /* to be kept */
+    for (int k = spare; k < count; k++)
+        equal += sorted[k] == least;
+    for (int k = 0; k < count; k++)
+        if (most[k] > least || (most[k] == least && equal-- > 0))
+            file->lights[kept++] = file->lights[k];
+        else
+            scene_file_note(file, NOTE_LIGHTS);
+    free(most);
+    file->light_count = kept;
 }
 
 static void choose_exposure(FileScene *made, double asked)
@@ -171,7 +224,7 @@ static void choose_exposure(FileScene *made, double asked)
     if (asked > 0 || !made->file.photometric)
         return;
     file_scene_make(made, 0, &scene);
-    const double usual = usual_brightness(&scene);
+    const double usual = usual_brightness(made);
     if (usual > 0 && (usual < DARK || usual > BRIGHT))
         made->exposure = 1 / usual;
 }
@@ -210,11 +263,10 @@ static bool open_file(FileScene *made, const FileSceneOptions *options, Message 
         return false;
     made->poses = memory_new((size_t)file->node_count + 1, sizeof *made->poses);
     made->objects = memory_new((size_t)file->object_count, sizeof *made->objects);
-    for (; file->light_count > EFFECTS_MAX_LIGHTS; file->light_count--)
-        scene_file_note(file, NOTE_LIGHTS);
     made->exposure = 1;
     scene_file_pose(file, 0, made->poses);
     find_middle(made);
+    keep_brightest_lights(made);
     choose_exposure(made, options->exposure);
     file_scene_make(made, 0, &scene);
     return scene_check(&scene, message);

@@ -121,13 +121,16 @@ static void set_highlight(Material *to, Vec3 reflectance, double roughness)
     to->specular = color_within_one(vec3_scale(reflectance, (to->shininess + 8) / 8));
 }
 
-static void set_material(Reading *reading, const json_t *from, Object *object)
+/* With colours at the vertices, which are diffuse, none is a metal or unlit. */
+static void set_material(Reading *reading, const json_t *from, bool colored, Object *object)
 {
     static const Vec3 white = {1, 1, 1};
     const json_t *pbr = json_object_get(from, "pbrMetallicRoughness");
     const json_t *gloss = gltf_extension(from, "KHR_materials_pbrSpecularGlossiness");
     const char *mode = json_string_value(json_object_get(from, "alphaMode"));
-    const double metal = fmin(fmax(gltf_number(pbr, "metallicFactor", 1), 0), 1);
+    const double factor = fmin(fmax(gltf_number(pbr, "metallicFactor", 1), 0), 1);
+    const double metal = colored ? 0 : factor;
+    const bool unlit = gltf_extension(from, "KHR_materials_unlit");
     double color[4] = {1, 1, 1, 1};
     Material *to = &object->front;
     if (!gltf_numbers(gloss, "diffuseFactor", 4, color))
@@ -149,8 +152,12 @@ static void set_material(Reading *reading, const json_t *from, Object *object)
         vec3_scale(gltf_vector(from, "emissiveFactor", (Vec3){0, 0, 0}),
                    gltf_number(gltf_extension(from, "KHR_materials_emissive_strength"),
                                "emissiveStrength", 1)));
-    if (gltf_extension(from, "KHR_materials_unlit"))
+    if (unlit && colored)
+        to->specular = to->emission = (Vec3){0, 0, 0};
+    else if (unlit)
         *to = (Material){.emission = base, .alpha = to->alpha};
+    if (colored && (unlit || (factor > 0 && !gloss)))
+        scene_file_note(reading->file, unlit ? NOTE_UNLIT : NOTE_METAL);
     object->two_sided = json_is_true(json_object_get(from, "doubleSided"));
     object->back = *to;
     if (from)
@@ -342,9 +349,9 @@ bool gltf_add_objects(Reading *reading, const json_t *node, int number)
         const json_int_t material = gltf_whole(primitive, "material", -1);
         int *known = &reading->meshes[index][i];
         FileObject object = {.node = number};
-        set_material(reading,
-                     material >= 0 ? gltf_item(&reading->gltf, "materials", material) : NULL,
-                     &object.object);
+        set_material(
+            reading, material >= 0 ? gltf_item(&reading->gltf, "materials", material) : NULL,
+            json_object_get(json_object_get(primitive, "attributes"), "COLOR_0"), &object.object);
         if (*known == -1 && !gltf_failed(reading))
             *known = read_primitive(reading, primitive, object.object.front.ambient);
         if (*known == -2)

@@ -255,9 +255,11 @@ static bool add_light(Walk *walk, const struct aiLight *from, int node)
         .constant = from->mAttenuationConstant,
         .linear = from->mAttenuationLinear / walk->scale,
         .quadratic = from->mAttenuationQuadratic / (walk->scale * walk->scale)};
-    walk->file->photometric |= fmax(fmax(diffuse.x, diffuse.y), diffuse.z) > 1;
     if (importer_is(walk->scene, "FBX"))
         set_decay(&to->light);
+    /* Or it is amplified near by. */
+    walk->file->photometric |= fmax(fmax(diffuse.x, diffuse.y), diffuse.z) > 1 ||
+                               (to->light.constant < 1 && light_fades(&to->light));
     if (from->mType == aiLightSource_AREA)
         scene_file_note(walk->file, NOTE_AREA);
     if (color_is_black(to->light.specular))

@@ -332,6 +332,50 @@ class Scene(base.Case):
         if len(cases) > 1:  # else the one may lack them
             self.assertLessEqual({"beyond its range", "its cone misses"}, rules)
 
+    def test_colours_at_vertices_are_diffuse_whatever_the_material(self):
+        """A metal, with or without a word of it, looks as no metal does; an unlit one as one without a highlight."""
+        pictures = {}
+        for name, members in (("metal", {}), ("none", {"pbrMetallicRoughness": {"metallicFactor": 0}}),
+                              ("unlit", {"extensions": {"KHR_materials_unlit": {}}}),
+                              ("dull", {"extensions": {"KHR_materials_pbrSpecularGlossiness": {"specularFactor": [0, 0, 0]}}})):
+            file = tetrahedron(materials=[members], nodes=[{"mesh": 0, "rotation": [0, 1, 0, 0]}])
+            file["meshes"][0]["primitives"][0].update(material=0, attributes={"POSITION": 0, "COLOR_0": 2})
+            file["accessors"].append({"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"})
+            self.save("a.gltf", file)
+            pictures[name] = self.drawn("a.gltf", *base.SMALL, program="Scene").pixels
+            said = self.good("a.gltf", "--explain", program="Scene").decode()
+            self.assertEqual("1 times: metals with colours" in said, name == "metal")
+            self.assertEqual("1 times: unlit materials with colours" in said, name == "unlit")
+        self.assertEqual(pictures["metal"], pictures["none"])
+        self.assertEqual(pictures["unlit"], pictures["dull"])
+        self.assertNotEqual(pictures["dull"], pictures["none"])
+
+    def test_of_many_lights_the_brightest_are_drawn(self):
+        chance = random.Random(SEED)
+        lights = [{"type": "point", "intensity": chance.choice((0, 1e-9))} for _ in range(60)]
+        lights[chance.randrange(60)] = {"type": "point", "intensity": 5}
+        pictures = []
+        for kept in lights, [light for light in lights if light["intensity"] == 5]:
+            nodes = [{"mesh": 0}] + [{"translation": [2, 2, 2], "extensions": {"KHR_lights_punctual": {"light": i}}}
+                                     for i in range(len(kept))]
+            self.save("a.gltf", tetrahedron(nodes=nodes, scenes=[{"nodes": [*range(len(nodes))]}],
+                                            extensions={"KHR_lights_punctual": {"lights": kept}}))
+            pictures.append(self.drawn("a.gltf", *base.SMALL, program="Scene").pixels)
+        self.assertEqual(*pictures)
+        self.assertGreater(max(pictures[0]), 100)
+
+    def test_the_unit_of_length_does_not_matter(self):
+        """In millimetres a lamp has a million times the candela; bytes may be rounded otherwise."""
+        pictures = []
+        for unit in 1, 1000, 1e6:
+            nodes = [{"mesh": 0, "scale": [unit] * 3},
+                     {"translation": [2 * unit] * 3, "extensions": {"KHR_lights_punctual": {"light": 0}}}]
+            self.save("a.gltf", tetrahedron(nodes=nodes, scenes=[{"nodes": [0, 1]}], extensions={
+                "KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 5 * unit ** 2}]}}))
+            pictures.append(self.drawn("a.gltf", *base.SMALL, program="Scene").pixels)
+        for picture in pictures[1:]:
+            self.assertLessEqual(max(abs(a - b) for a, b in zip(pictures[0], picture, strict=True)), 1)
+
     def test_obj_may_have_a_mark_and_other_ends_of_lines(self):
         lines = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n"
         pictures = [self.drawn(self.save("a.obj", mark + lines.replace(b"\n", end)), *base.SMALL, program="Scene").pixels
