@@ -506,6 +506,26 @@ class Scene(base.Case):
             said = self.good(path, "--explain", program="Scene").decode()
             self.assertIn("M scales evenly" if "spider" in path else "of the file: how bright", said)
 
+    def test_lights_that_are_amplified_near_by_are_dimmed(self):
+        """An attenuation far below 1 means a strong lamp, whose distance the file's author knows."""
+        pictures = []
+        for quadratic in 0.05, 0.0005, 0.00005:
+            places = " ".join(map(str, POSITIONS))
+            self.save("a.dae", f"""<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset/>
+<library_lights><light id="l"><technique_common><point><color>1 1 1</color><constant_attenuation>0</constant_attenuation>
+<quadratic_attenuation>{quadratic}</quadratic_attenuation></point></technique_common></light></library_lights>
+<library_geometries><geometry id="g"><mesh><source id="p"><float_array id="a" count="12">{places}</float_array><technique_common>
+<accessor source="#a" count="4" stride="3"><param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/>
+</accessor></technique_common></source><vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="4"><input semantic="VERTEX" source="#v" offset="0"/><p>{" ".join(map(str, CORNERS))}</p></triangles></mesh>
+</geometry></library_geometries><library_visual_scenes><visual_scene id="s"><node><instance_geometry url="#g"/></node>
+<node><translate>3 3 3</translate><instance_light url="#l"/></node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#s"/></scene></COLLADA>""".encode())
+            pictures.append(self.drawn("a.dae", *base.SMALL, program="Scene").pixels)
+        for picture in pictures:
+            self.assertTrue(any(picture))
+            self.assertLess(sum(value == 255 for value in picture) / len(picture), 0.02)
+
     def test_the_exact_picture_agrees(self):
         paths = [path for name in ("Collada/duck.dae", "OBJ/spider.obj", "glTF2/ClearCoat-glTF/ClearCoatTest.gltf",
                                    "glTF2/2CylinderEngine-glTF-Binary/2CylinderEngine.glb", "3DS/fels.3ds")
