@@ -202,7 +202,7 @@ static void keep_brightest_lights(FileScene *made)
         }
     }
     memcpy(sorted, most, (size_t)count * sizeof *most);
-    qsort(sorted, (size_t)count, sizeof *sorted, by_size);
+    qsort(sorted, (size_t)count, sizeof *sorted, clock_compare);
     const double least = sorted[spare];
     int kept = 0, equal = 0; /* to be kept */
     for (int k = spare; k < count; k++)
