@@ -85,8 +85,22 @@ static void show_line(const ShaderSource *source, int file, int line, Message *m
         message_add(message, "\n  %d | %.*s", line, length < 200 ? length : 200, text);
 }
 
-/* ANGLE's place of what is missing. */
-static const char NOWHERE[] = "ERROR: -1:-1: ";
+/* How long the place is that a log gives what is missing, ANGLE's and NVIDIA's; 0: it is another.
+ */
+static int nowhere(const char *log)
+{
+    static const char *const places[] = {"ERROR: -1:-1: ", "(0) : "};
+    for (int i = 0; i < 2; i++)
+        if (strncmp(log, places[i], strlen(places[i])) == 0)
+            return (int)strlen(places[i]);
+    return 0;
+}
+
+/* NVIDIA lists, indented, the 160 products of the language where the types of one do not fit. */
+static bool is_candidate(const char *log)
+{
+    return log[0] == ' ' && nowhere(log + strspn(log, " "));
+}
 
 bool shader_explain_log(const ShaderSource *source, const char *log, Message *message)
 {
@@ -109,10 +123,10 @@ bool shader_explain_log(const ShaderSource *source, const char *log, Message *me
             if (!shown)
                 show_line(source, file, line, message);
             shown = true;
-        } else if (strncmp(log, NOWHERE, strlen(NOWHERE)) == 0) {
-            message_add(message, "%s%s: %.*s", separator, source->files[0],
-                        length - (int)strlen(NOWHERE), log + strlen(NOWHERE));
-        } else if (length > 0) {
+        } else if (nowhere(log)) {
+            message_add(message, "%s%s: %.*s", separator, source->files[0], length - nowhere(log),
+                        log + nowhere(log));
+        } else if (length > 0 && !is_candidate(log)) {
             message_add(message, "%s%.*s", separator, length, log);
         }
         log += length + (newline ? 1 : 0);
@@ -209,22 +223,37 @@ static bool locate_link_error(const ShaderSource *source, const char *log, Messa
     return false;
 }
 
-static bool link_program(GLuint program, const ShaderSource sources[2], Message *message)
+bool shader_explain_link(const ShaderSource sources[2], char *log, Message *message)
 {
+    /* NVIDIA's, of the stage whose lines follow. */
+    static const char *const headings[] = {[SHADER_VERTEX] = "Vertex info\n-----------\n",
+                                           [SHADER_FRAGMENT] = "Fragment info\n-------------\n"};
     const ShaderSource *vertex = &sources[SHADER_VERTEX], *fragment = &sources[SHADER_FRAGMENT];
-    GLint linked = GL_FALSE;
-    glLinkProgram(program);
-    glGetProgramiv(program, GL_LINK_STATUS, &linked);
-    if (linked)
-        return true;
-    char log[LOG_MAX] = "";
-    glGetProgramInfoLog(program, sizeof log, NULL, log);
+    int file, line;
     for (size_t end = strlen(log); end > 0 && isspace((unsigned char)log[end - 1]); end--)
         log[end - 1] = '\0';
+    for (int stage = 0; stage < 2; stage++) {
+        if (strncmp(log, headings[stage], strlen(headings[stage])) != 0)
+            continue;
+        log += strlen(headings[stage]);
+        if (parse_position(log, &file, &line) || nowhere(log))
+            return shader_explain_log(&sources[stage], log, message);
+    }
     if (locate_link_error(fragment, log, message) || locate_link_error(vertex, log, message))
         return false;
     return message_set(message, "%s, %s: linking: %s", vertex->files[0], fragment->files[0],
                        log[0] ? log : "the driver rejected it without a reason");
+}
+
+static bool link_program(GLuint program, const ShaderSource sources[2], Message *message)
+{
+    char log[LOG_MAX] = "";
+    GLint linked = GL_FALSE;
+    glLinkProgram(program);
+    glGetProgramiv(program, GL_LINK_STATUS, &linked);
+    if (!linked)
+        glGetProgramInfoLog(program, sizeof log, NULL, log);
+    return linked || shader_explain_link(sources, log, message);
 }
 
 /* Whether fragment shaders may say highp: asked of the compiler, because what the driver says of

@@ -71,6 +71,10 @@ void shader_source_close(ShaderSource *source);
  * "file:line: rest"; the first is followed by that line of source. Always returns false. */
 bool shader_explain_log(const ShaderSource *source, const char *log, Message *message);
 
+/* The same of a program that does not link; a log without a line is led to the declaration of a
+ * variable that it names. Cuts white space off the log's end. */
+bool shader_explain_link(const ShaderSource sources[2], char *log, Message *message);
+
 /* Line numbers encode the file, a million lines each, because Mesa reports the source string only
  * for syntax errors: "#line 1000003 1" is line 3 of file 1. */
 enum { SHADER_LINES_OF_FILE = 1000000 };

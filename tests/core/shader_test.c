@@ -668,6 +668,49 @@ SHADER_TEST(what_a_driver_says_of_a_missing_main_has_a_file)
     assert_null(strstr(message.text, "-1"));
 }
 
+/* What NVIDIA 580.159 wrote: of products it lists all there are, and a link's log has a heading. */
+SHADER_TEST(nvidias_logs_have_a_file_and_no_lists)
+{
+    static const struct {
+        const char *log, *said;
+    } cases[] = {
+        {"Fragment info\n-------------\n0(2) : error C3002: call to undefined function "
+         "\"float f();\"\n",
+         "a.frag:2: error C3002: call to undefined function \"float f();\"\n  2 | varying vec3 v_N;"},
+        {"Fragment info\n-------------\n(0) : error C3001: no program defined\n",
+         "a.frag: error C3001: no program defined"},
+        {"Vertex info\n-----------\n(0) : error C3001: no program defined\n",
+         "a.vert: error C3001: no program defined"},
+        {"Vertex info\n-----------\nerror: type mismatch between shaders for uniform (named v_N)\n",
+         "a.frag:2: linking: error: type mismatch between shaders for uniform (named v_N)\n"
+         "  2 | varying vec3 v_N;"},
+        {"error: too much\n\n", "a.vert, a.frag: linking: error: too much"}};
+    ShaderSource both[2];
+    const ShaderText texts[] = {{"a.vert", V}, {"a.frag", F("")}, {NULL, NULL}};
+    const ShaderLoader own = {.texts = texts, .only_texts = true};
+    assert_true(shader_source_open(&both[0], &own, "a.vert", SHADER_VERTEX, &message));
+    assert_true(shader_source_open(&both[1], &own, "a.frag", SHADER_FRAGMENT, &message));
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char log[256];
+        snprintf(log, sizeof log, "%s", cases[i].log);
+        message = (Message){0};
+        assert_false(shader_explain_link(both, log, &message));
+        assert_string_equal(message.text, cases[i].said);
+    }
+    message = (Message){0};
+    shader_explain_log(&both[0],
+                       "0(2) : error C1101: ambiguous \"mul(mat4, vec3)\"\n"
+                       "    (0) : gp5 mediump mat3x4 mul(mediump mat3x1, mediump mat1x4)\n"
+                       "    (0) : mat3 mul(mat3x1, ma",
+                       &message);
+    assert_null(strstr(message.text, "mat3x1"));
+    message = (Message){0};
+    shader_explain_log(&both[1], "(0) : error C0000: unexpected $end\n", &message);
+    assert_string_equal(message.text, "a.frag: error C0000: unexpected $end");
+    shader_source_close(&both[0]);
+    shader_source_close(&both[1]);
+}
+
 SHADER_TEST(every_line_of_a_log_is_mapped_and_the_first_is_quoted)
 {
     char log[128];
