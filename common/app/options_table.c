@@ -113,7 +113,7 @@ static const Parameter FIRST[] = {
      "error:NAME: the part of that which NAME causes; blame: the line that causes most",
      PARAMETER_TEXT, .min = 1, .placeholder = "NAME", AT(show), .programs = GL_FILM},
     {"arithmetic",
-     "draw what another device would: llvmpipe, llvmpipe-128, softpipe, half, float, or a file or "
+     "draw what another device would: llvmpipe, llvmpipe-128, softpipe, nvidia, half, float, or a file or "
      "link with what precision measured there; with --probe and --show, of that device",
      PARAMETER_TEXT, .min = 1, .placeholder = "DEVICE", AT(arithmetic), .programs = GL_FILM},
     {"deterministic",

@@ -31,8 +31,7 @@ typedef struct ShaderReplacement {
 /* Where and how shaders are loaded. Zero means default. */
 typedef struct ShaderLoader {
     const char *folder;         /* searched first; NULL: none */
-    const char *precision;      /* "highp" or "mediump" replaces the other in fragment shaders;
-                                   NULL: as the file says */
+    const char *precision;      /* "highp" or "mediump" replaces the other in fragment shaders */
     const char *const *defines; /* "NAME" or "NAME value", ended by NULL; may be NULL */
     const ShaderText *texts;    /* searched before any folder; ended by a NULL name; may be NULL */
     bool only_texts;            /* no file is read */
@@ -70,13 +69,10 @@ void shader_source_close(ShaderSource *source);
 /* Maps the driver's log to files: a line that begins with a source string and line number becomes
  * "file:line: rest"; the first is followed by that line of source. Always returns false. */
 bool shader_explain_log(const ShaderSource *source, const char *log, Message *message);
-
-/* The same of a program that does not link; a log without a line is led to the declaration of a
- * variable that it names. Cuts white space off the log's end. */
+/* The same of a program that does not link; cuts white space off the log's end. */
 bool shader_explain_link(const ShaderSource sources[2], char *log, Message *message);
 
-/* Line numbers encode the file, a million lines each, because Mesa reports the source string only
- * for syntax errors: "#line 1000003 1" is line 3 of file 1. */
+/* "#line 1000003 1" is line 3 of file 1: Mesa reports the source string of syntax errors only. */
 enum { SHADER_LINES_OF_FILE = 1000000 };
 
 /* Whether a line of a source is a #line directive, and the file and line it gives the next. */

@@ -21,15 +21,15 @@ static const GlslArithmetic NARROW = {.of = ALL(FLOAT, FLOAT), .mesa = true}; /*
 static const GlslArithmetic SOFTPIPE = {.of = ALL(FLOAT, FLOAT)};
 static const GlslArithmetic HALVED = {.of = ALL(FLOAT, HALF)};
 static const GlslArithmetic WHOLE = {.of = ALL(KEPT, KEPT)};
+static const GlslArithmetic NVIDIA = {.of = ALL(FLOAT, HALF), .cut = 12};
 
 const GlslDevice GLSL_DEVICES[] = {
-    {"llvmpipe", &GLSL_LLVMPIPE},
-    {"llvmpipe-128", &NARROW},
-    {"softpipe", &SOFTPIPE},
-    {"half", &HALVED},
-    {"float", &WHOLE},
+    {"llvmpipe", &GLSL_LLVMPIPE}, {"llvmpipe-128", &NARROW}, {"softpipe", &SOFTPIPE},
+    {"nvidia", &NVIDIA},          {"half", &HALVED},         {"float", &WHOLE},
     {NULL, &GLSL_LLVMPIPE},
 };
+
+static const char BYTES[] = ";bytes=";
 
 /* "24,-126,127,kept" after `name`. */
 static bool read_numbers(const char *text, const char *name, GlslNumbers *numbers)
@@ -57,13 +57,19 @@ bool glsl_arithmetic_read(const char *text, GlslArithmetic *arithmetic)
     const bool read = read_numbers(text, "highp=", &arithmetic->of[GLSL_HIGHP]) &&
                       read_numbers(text, "mediump=", &arithmetic->of[GLSL_MEDIUMP]);
     arithmetic->of[GLSL_LOWP] = arithmetic->of[GLSL_MEDIUMP];
-    return read;
+    const char *bytes = strstr(text, BYTES);
+    arithmetic->cut = bytes ? atoi(bytes + strlen(BYTES)) : 0;
+    return read && arithmetic->cut >= 0 && arithmetic->cut <= 24;
 }
 
-void glsl_arithmetic_print(const GlslNumbers *highp, const GlslNumbers *mediump, char *text,
-                           size_t size)
+void glsl_arithmetic_print(const GlslArithmetic *arithmetic, char *text, size_t size)
 {
+    const GlslNumbers *highp = &arithmetic->of[GLSL_HIGHP],
+                      *mediump = &arithmetic->of[GLSL_MEDIUMP];
     snprintf(text, size, "highp=%d,%d,%d%s;mediump=%d,%d,%d%s", highp->bits, highp->least,
              highp->most, highp->denormals ? ",kept" : "", mediump->bits, mediump->least,
              mediump->most, mediump->denormals ? ",kept" : "");
+    const size_t used = strlen(text);
+    if (arithmetic->cut)
+        snprintf(text + used, size - used, "%s%d", BYTES, arithmetic->cut);
 }

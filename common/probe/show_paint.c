@@ -250,6 +250,13 @@ static void paint_blame(const Show *show, Image *picture, FILE *legend)
     free(lines);
 }
 
+/* NVIDIA cuts a colour to 12 bits, and rounds the half of a step down. */
+static double byte_of(double channel, int cut)
+{
+    return cut ? ceil(origin_step(ldexp(floor(ldexp(channel, cut)), -cut)) - 0.5)
+               : rint(origin_step(channel));
+}
+
 /* As a framebuffer of bytes keeps them, over the background. */
 static void paint_colors(const Show *show, Image *picture)
 {
@@ -257,8 +264,9 @@ static void paint_colors(const Show *show, Image *picture)
     for (size_t i = 0; i < (size_t)show->width * (size_t)show->height; i++, bytes += 4) {
         const ShowPixel *pixel = &show->pixels[i];
         for (int k = 0; k < 3; k++)
-            bytes[k] = (unsigned char)rint(origin_step(
-                (double)(pixel->count ? pixel->values[k] : show->capture->clear_color[k])));
+            bytes[k] = (unsigned char)byte_of(
+                (double)(pixel->count ? pixel->values[k] : show->capture->clear_color[k]),
+                show->cut);
         bytes[3] = 255;
     }
 }

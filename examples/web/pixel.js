@@ -10,7 +10,7 @@ const Pixel = (() => {
     let asked = null, next = null; /* pixels of the line */
     let open = null, said = null, shown = ""; /* the pixel that is explained, and how; the value that is shown */
     let layers = null, section = null;
-    const DEVICES = ["llvmpipe", "llvmpipe-128", "softpipe", "half", "float"]; /* as --arithmetic names them */
+    const DEVICES = ["llvmpipe", "llvmpipe-128", "softpipe", "nvidia", "half", "float"]; /* as --arithmetic names them */
     const COMPUTED = "computed"; /* of the values: the picture itself */
     const AS = new URLSearchParams(location.search).get("as"); /* the device of the page's address */
     const waiting = new Map();

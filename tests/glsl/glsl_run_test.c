@@ -243,6 +243,22 @@ TEST(what_runs_before_each_event_runs_once)
     shader_close(&shader);
 }
 
+TEST(a_devices_numbers_are_read_as_they_are_printed)
+{
+    static const char *const texts[] = {"highp=24,-126,127;mediump=11,-14,15,kept",
+                                        "highp=24,-126,127,kept;mediump=9,-14,15;bytes=12"};
+    for (int i = 0; i < 2; i++) {
+        GlslArithmetic read;
+        char printed[128];
+        assert_true(glsl_arithmetic_read(texts[i], &read));
+        assert_int_equal(read.cut, i ? 12 : 0);
+        glsl_arithmetic_print(&read, printed, sizeof printed);
+        assert_string_equal(printed, texts[i]);
+    }
+    GlslArithmetic none;
+    assert_false(glsl_arithmetic_read("highp=24,-126,127;mediump=11,-14,15;bytes=99", &none));
+}
+
 /* Results of float arithmetic in C, which is what the driver's highp is, to the last bit. */
 TEST(single_is_c)
 {

@@ -841,6 +841,10 @@ class Outputs(Case):
         self.assertEqual(pictures[0], self.png("drawn.png").pixels)
         self.assertEqual(pictures[1], pictures[0])
         self.assertNotEqual(pictures[2], pictures[0])
+        self.good(*SMALL, "--arithmetic", "highp=24,-126,127;mediump=24,-126,127;bytes=4", "-o", "a.png")
+        cut = self.png("a.png").pixels  # 16 levels of a colour
+        self.assertTrue(all(0 <= whole - few <= 16 for whole, few in zip(pictures[0], cut)))
+        self.assertNotEqual(cut, pictures[0])
         self.refused(1, "--arithmetic phone: neither a file with what precision measured nor one of llvmpipe ", *SMALL,
                      "--arithmetic", "phone")
         self.refused(2, "--arithmetic half: makes one picture", *SMALL, "--arithmetic", "half", "--frames", "2", "-o", "a%d.png")

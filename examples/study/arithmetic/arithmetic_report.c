@@ -238,13 +238,14 @@ static void put_meaning(const Arithmetics *found, FILE *file)
 /* For --arithmetic: of fragment shaders. */
 static void device_text(const Arithmetics *found, char *text, size_t size)
 {
-    GlslNumbers numbers[METER_PRECISIONS];
-    for (int i = 0; i < METER_PRECISIONS; i++) {
+    static const int precisions[] = {[METER_HIGHP] = GLSL_HIGHP, [METER_MEDIUMP] = GLSL_MEDIUMP};
+    GlslArithmetic arithmetic = {.cut = found->raster.cut};
+    for (int i = METER_HIGHP; i <= METER_MEDIUMP; i++) {
         const Format *format = &found->of[SHADER_FRAGMENT][i].format;
-        numbers[i] = (GlslNumbers){format->bits, format->min_exponent, format->max_exponent,
-                                   format->denormals};
+        arithmetic.of[precisions[i]] = (GlslNumbers){format->bits, format->min_exponent,
+                                                     format->max_exponent, format->denormals};
     }
-    glsl_arithmetic_print(&numbers[METER_HIGHP], &numbers[METER_MEDIUMP], text, size);
+    glsl_arithmetic_print(&arithmetic, text, size);
 }
 
 void arithmetic_text(const Arithmetics *found, const Forecast *forecast, bool markdown, FILE *file)

@@ -16,7 +16,7 @@
 const FunctionInfo FUNCTIONS[FUNCTION_COUNT] = {
     [FUNCTION_ADD] = {"+", "a + b", 2, NULL},
     [FUNCTION_MULTIPLY] = {"*", "a * b", 2, NULL},
-    [FUNCTION_DIVIDE] = {"/", "a / b", 2, NULL},
+    [FUNCTION_DIVIDE] = {"/", "a / b", 2, "1 / b within the range"},
     [FUNCTION_SQRT] = {"sqrt", "sqrt(a)", 1, NULL},
     [FUNCTION_INVERSESQRT] = {"inversesqrt", "inversesqrt(a)", 1, NULL},
     [FUNCTION_LENGTH] = {"length",
@@ -95,8 +95,9 @@ static void two_numbers(Random *random, Function function, const Format *format,
         exponent += random_below(random, 2 * format->bits + 3) - format->bits - 2;
         exponent = exponent < low ? low : exponent > high ? high : exponent;
         *y = with_sign(random, number(random, format, exponent));
-    } else {
-        *y = with_sign(random, any_number(random, format, low, high));
+    } else { /* for larger b no accuracy is promised (GLSL ES 3.20, section 4.7.1) */
+        const int most = function == FUNCTION_DIVIDE ? -low - 1 : high;
+        *y = with_sign(random, any_number(random, format, low, most));
     }
 }
 

@@ -237,9 +237,16 @@ static bool bytes(const Meter *meter, Raster *raster, Message *message)
         meter_load(meter, (const float(*)[4])values, (const float(*)[4])values, count);
         meter_draw(&byte_meter, program, METER_FRAGMENT, count);
         glReadPixels(0, 0, first->width, first->height, GL_RGBA, GL_UNSIGNED_BYTE, drawn);
-        for (int i = 0; i < 4 * count; i++)
-            raster->bytes =
-                fmax(raster->bytes, fabs(drawn[i / 4][i % 4] - 255 * (double)values[i / 4][i % 4]));
+        double above = 0, below = 0;
+        for (int i = 0; i < 4 * count; i++) {
+            const double error = drawn[i / 4][i % 4] - 255 * (double)values[i / 4][i % 4];
+            above = fmax(above, error);
+            below = fmax(below, -error);
+        }
+        raster->bytes = fmax(above, below);
+        /* Cut, it is up to 255 / 2^cut steps too small, and never too large. */
+        raster->cut =
+            below - 0.5 > 0.01 && above < 0.501 ? (int)lrint(log2(255 / (below - 0.5))) : 0;
         canvas_close(&byte_meter.canvas);
     }
     glDeleteProgram(program);
