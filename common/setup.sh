@@ -303,6 +303,15 @@ setup_tree() {
     cat "$build/source_root" 2>/dev/null
 }
 
+# Ends if meson, whose messages are in $log, found a file of the future.
+fail_of_future() {
+    future=$(sed -n 's/.*Clock skew detected. File \(.*\) has a time stamp .*/\1/p' "$log")
+    [ "$future" ] || return 0
+    rm -f "$log"
+    fail 1 "$future is of the future: set the clock, or touch what is newer than now: find '$root' -newermt" \
+        "now -exec touch {} +"
+}
+
 # $build/.configured is as old as the configuration, which is done again if the tree was moved or
 # packages were installed, or, for the pages, which list them then, shaders came or went.
 setup_configure() {
@@ -327,11 +336,9 @@ setup_configure() {
     log=$(mktemp) || exit 1
     # shellcheck disable=SC2086
     if ! meson setup $again ${cross:+--cross-file "$cross"} "$build" "$root" >"$log" 2>&1; then
-        future=$(sed -n 's/.*Clock skew detected. File \(.*\) has a time stamp .*/\1/p' "$log")
-        [ "$future" ] || tail -n 20 "$log" >&2
+        fail_of_future
+        tail -n 20 "$log" >&2
         rm -f "$log"
-        [ "$future" ] && fail 1 "$future is of the future: set the clock, or touch what is newer than" \
-            "now: find '$root' -newermt now -exec touch {} +"
         fail 1 "meson could not configure $build"
     fi
     rm -f "$log"
@@ -362,6 +369,7 @@ build_seen() {
             said=$now
         done
     }; } 4>&1)
+    [ "$code" = 0 ] || fail_of_future # ninja has started meson again
     [ "$code" = 0 ] || cat "$log" >&2
     rm -f "$log"
     return "$code"

@@ -5,6 +5,7 @@
 
 #include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -12,7 +13,9 @@ bool paths_program(char path[PATH_MAX], Message *message)
 {
     const ssize_t length = readlink("/proc/self/exe", path, PATH_MAX - 1);
     path[length > 0 ? length : 0] = '\0';
-    return length > 0 || message_set(message, "/proc/self/exe: %s", strerror(errno));
+    /* Where /proc is not mounted, as in a plain chroot: as it was started. */
+    return length > 0 || realpath(program_invocation_name, path) ||
+           message_set(message, "/proc/self/exe: %s", strerror(errno));
 }
 
 static bool join(char path[PATH_MAX], const char *root, const char *folder, const char *file)

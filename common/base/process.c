@@ -66,6 +66,7 @@ bool process_restart(char *const *arguments, const char *const *settings, Messag
     if (there)
         return true;
     execv("/proc/self/exe", arguments);
+    execvp(program_invocation_name, arguments); /* without /proc */
     return message_set(message, "this program cannot be started again: %s", strerror(errno));
 }
 

@@ -370,7 +370,7 @@ class Abuse(Class):
         declared = (
             "#include <stddef.h>\n#include <string.h>\n"
             "int fork(void); int pause(void); unsigned sleep(unsigned); int kill(int, int); "
-            "int getppid(void); void *malloc(size_t); void abort(void); struct file; "
+            "int getppid(void); void *malloc(size_t); void abort(void); void _exit(int); struct file; "
             "struct file *fopen(const char *, const char *); "
             "int fputs(const char *, struct file *); int fclose(struct file *);\n"
         )
@@ -395,6 +395,8 @@ class Abuse(Class):
 
         with_code("writer", declared, writing(self.path("written"), "x"))
         with_code("killer", declared, " kill(getppid(), 9); ")
+        # As if the kernel could not confine it.
+        with_code("pretender", declared, " _exit(3); ")
         with_code("include_device", '#include "/dev/zero"\n', "")
         with_code("include_secret", f'#include "{self.path("secret.h")}"\n', "")
         with_code("include_system", "#include <unistd.h>\n", "")

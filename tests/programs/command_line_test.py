@@ -988,6 +988,19 @@ class Outputs(Case):
         self.good(*SMALL, "-o", "b.png", program=self.path("linked"))
         self.assertEqual(self.read("a.png"), self.read("b.png"))
 
+    def test_programs_run_without_proc(self):
+        """As in a plain chroot: they find their plugins and shaders, and start again."""
+        hide = ["unshare", "--mount", *(["--map-root-user"] if os.getuid() else []), "sh", "-c",
+                'mount -t tmpfs none /proc && exec "$@"', "sh"]
+        if not shutil.which("unshare") or subprocess.run([*hide, "true"], capture_output=True).returncode:
+            self.skipTest("nothing may be mounted here")
+        for program, *more in (("FourLights",), ("LightedCube",), ("LightedCube", "--deterministic")):
+            drawn = self.good(*SMALL, *more, "-o", "-", program=program)
+            result = subprocess.run([*hide, os.path.join(EXAMPLES, program), *SMALL, *more, "-o", "a.png"], cwd=self.folder,
+                                    capture_output=True, timeout=PATIENCE)
+            self.assertEqual((result.returncode, result.stderr), (0, b""))
+            self.assertEqual(self.read("a.png"), drawn)
+
     @unittest.skipUnless(os.path.exists(MODULE), "built without OpenImageIO")
     def test_other_formats(self):
         for extension, start in (("exr", b"\x76\x2f\x31\x01"), ("tif", b"II*\0"), ("webp", b"RIFF"),

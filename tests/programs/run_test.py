@@ -319,12 +319,14 @@ class Folders(Case):
 
     def test_a_file_of_the_future_is_named(self):
         """meson stops there."""
-        self.tool("meson", 'echo "ERROR: Clock skew detected. File /a b/meson.build has a time stamp 9.0s in '
-                           'the future."; exit 1')
-        code, _, said = super().start("LightedCube", run=self.run_path)
-        self.assertEqual(code, 1)
-        self.assertRegex(said, "\nexamples/run: /a b/meson.build is of the future: set the clock, or ")
-        self.assertNotIn("ERROR", said)
+        skew = 'echo "ERROR: Clock skew detected. File /a b/meson.build has a time stamp 9.0s in the future."; exit 1'
+        for tool in "ninja", "meson":  # ninja starts meson again if meson.build has changed
+            self.tool(tool, skew)
+            code, _, said = super().start("LightedCube", run=self.run_path)
+            self.assertEqual(code, 1)
+            self.assertRegex(said, "\nexamples/run: /a b/meson.build is of the future: set the clock, or ")
+            self.assertNotIn("ERROR", said)
+            shutil.rmtree(self.path("tree/build"))
 
     def test_a_long_build_says_how_far_it_is(self):
         """Without a terminal, too."""
