@@ -335,6 +335,21 @@ TEST(a_mesh_may_be_closed_twice_and_nothing_may_be_closed)
     topology_check_zeroed(&mesh);
 }
 
+/* Zero has two signs. */
+TEST(vertices_that_are_equal_as_numbers_are_welded)
+{
+    MeshVertex vertices[] = {{{0, 1, 2}, {0, 0, 1}},
+                             {{1, 1, 2}, {0, 0, 1}},
+                             {{-0.0F, 1, 2}, {1, 0, 0}},
+                             {{1, 1, 2}, {0, -0.0F, 1}}};
+    const Mesh mesh = {.vertices = vertices, .vertex_count = 4};
+    uint32_t first[4];
+    assert_true(mesh_weld(&mesh, false, first));
+    assert_memory_equal(first, ((const uint32_t[]){0, 1, 0, 1}), sizeof first);
+    assert_true(mesh_weld(&mesh, true, first));
+    assert_memory_equal(first, ((const uint32_t[]){0, 1, 2, 1}), sizeof first);
+}
+
 int main(void)
 {
     return testing_run(0, "mesh", NULL, NULL);
