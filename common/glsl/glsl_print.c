@@ -379,12 +379,22 @@ static void loop(Printer *printer, int index)
     statement(printer, glsl_child(tree, index, kind == GLSL_FOR ? 3 : 1));
 }
 
-static void statement(Printer *printer, int index)
+static void jump(Printer *printer, int index)
 {
     static const char *const WORDS[] = {[GLSL_RETURN] = "return",
                                         [GLSL_BREAK] = "break",
                                         [GLSL_CONTINUE] = "continue",
                                         [GLSL_DISCARD] = "discard"};
+    const GlslNode *node = at(printer, index);
+    put(printer, "%s", WORDS[node->kind]);
+    if (node->first && at(printer, node->first)->kind != GLSL_NOTHING) {
+        put(printer, " ");
+        expression(printer, node->first, 17);
+    }
+}
+
+static void statement(Printer *printer, int index)
+{
     const GlslNode *node = at(printer, index);
     const GlslTree *tree = printer->tree;
     switch (node->kind) {
@@ -403,11 +413,7 @@ static void statement(Printer *printer, int index)
     case GLSL_BREAK:
     case GLSL_CONTINUE:
     case GLSL_DISCARD:
-        put(printer, "%s", WORDS[node->kind]);
-        if (node->first && at(printer, node->first)->kind != GLSL_NOTHING) {
-            put(printer, " ");
-            expression(printer, node->first, 17);
-        }
+        jump(printer, index);
         put(printer, ";");
         break;
     case GLSL_DECLARE:
@@ -461,8 +467,12 @@ char *glsl_print(const GlslTree *tree, int node)
 void glsl_expression_text(const GlslTree *tree, int node, char *text, size_t size)
 {
     Printer printer = {.tree = tree, .limit = (int)size};
+    const int kind = tree->nodes[node].kind;
     put(&printer, "%s", "");
-    expression(&printer, node, 17);
+    if (kind >= GLSL_RETURN && kind <= GLSL_DISCARD)
+        jump(&printer, node);
+    else
+        expression(&printer, node, 17);
     if ((size_t)printer.used < size)
         memcpy(text, printer.text, (size_t)printer.used + 1);
     else

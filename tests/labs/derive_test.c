@@ -132,51 +132,71 @@ TEST(test_many_outputs)
     lab_pictures_close(&trial.pictures);
 }
 
-/* Of lab 8's fragment shader: what stands there, and is named so. */
+/* Of solutions: what stands there instead, and is named so. */
+static const struct {
+    int lab, stage;
+    const char *was, *by, *name;
+} CASES[] = {
+    {8, 1, "u_Attenuation.y * distance + u_Attenuation.z * distance * distance",
+     "u_Attenuation.z * distance + u_Attenuation.y * distance * distance",
+     "swapped: u_Attenuation.z and u_Attenuation.y"},
+    {8, 1, "vec3 color = u_AmbientLight * v_Color.rgb;",
+     "float fade = 1.0 / (u_Attenuation.x + u_Attenuation.y * distance + u_Attenuation.z * "
+     "distance * distance); vec3 color = u_AmbientLight * v_Color.rgb * fade;",
+     "factor too many: fade"},
+    {8, 1, "u_SpecularColor * pow(rDotV, u_Shininess)",
+     "pow(u_SpecularColor * rDotV, vec3(u_Shininess))",
+     "to the power of vec3(u_Shininess), too: u_SpecularColor"},
+    {8, 1, "u_Attenuation.y * distance", "u_Attenuation.y * distance * 0.4 * 3.0", "3.0 for 2.5"},
+    {8, 1, "u_Attenuation.y * distance", "u_Attenuation.x * distance",
+     "u_Attenuation.x for u_Attenuation.y"},
+    {8, 1, "pow(rDotV, u_Shininess)", "(rDotV * rDotV)", "exponent 2.0 for u_Shininess"},
+    {7, 1, "pow(nDotH, shininess)", "4.0 * pow(nDotH, u_Shininess)",
+     "on the power, not on its exponent: 4.0"},
+    {5, 1, "light += ", "if (nDotL <= 0.0) break; light += ", "break for continue"},
+    {9, 1, "color = u_BackColor;", "} color = u_BackColor; {",
+     "outside the braces of if (!front): color = u_BackColor"},
+    {9, 1, "u_AmbientLight + u_LightColor * nDotL", "max(u_AmbientLight, u_LightColor * nDotL)",
+     "the larger, not the sum: u_AmbientLight, u_LightColor * nDotL"},
+    {5, 0, "vec3(u_ModelMatrix * a_Position)", "gl_Position.xyz",
+     "gl_Position.xyz for the point in world space"},
+    {1, 0, "normalize(vec3(u_NormalMatrix * vec4(a_Normal.xyz, 0.0)))",
+     "vec3(normalize(u_NormalMatrix * a_Normal))",
+     "normalized with its w: u_NormalMatrix * a_Normal"},
+};
+
 TEST(test_names)
 {
-    static const struct {
-        const char *was, *by, *name;
-    } CASES[] = {
-        {"u_Attenuation.y * distance + u_Attenuation.z * distance * distance",
-         "u_Attenuation.z * distance + u_Attenuation.y * distance * distance",
-         "coefficients of distance swapped"},
-        {"vec3 color = u_AmbientLight * v_Color.rgb;",
-         "float fade = 1.0 / (u_Attenuation.x + u_Attenuation.y * distance + u_Attenuation.z * "
-         "distance * distance); vec3 color = u_AmbientLight * v_Color.rgb * fade;",
-         "factor too many: fade"},
-        {"u_SpecularColor * pow(rDotV, u_Shininess)",
-         "pow(u_SpecularColor * rDotV, vec3(u_Shininess))",
-         "to the power of vec3(u_Shininess), too: u_SpecularColor"},
-        {"u_Attenuation.y * distance", "u_Attenuation.y * distance * 0.4 * 3.0", "3.0 for 2.5"},
-    };
     static Trial trial;
     static Verdict verdict;
     Message message = {0};
-    trial = (Trial){.lab = &LABS[8 - 1]};
-    if (!lab_pictures_open(&trial.pictures, trial.lab, 1, &message))
-        fail_msg("%s", message.text);
-    for (int k = 0; k < 2; k++)
-        trial.texts[k] = read_solution(trial.lab, k);
     for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i += (size_t)testing_step(2)) {
         SubmissionFiles files = {.count = 0};
-        const char *text = trial.texts[1], *at = strstr(text, CASES[i].was);
-        assert_non_null(at);
-        char *wrong = memory_format("%.*s%s%s", (int)(at - text), text, CASES[i].by,
-                                    at + strlen(CASES[i].was));
-        add_file(&files, trial.lab, 0, trial.texts[0]);
-        add_file(&files, trial.lab, 1, wrong);
-        free(wrong);
+        trial = (Trial){.lab = &LABS[CASES[i].lab - 1]};
+        if (!lab_pictures_open(&trial.pictures, trial.lab, 1, &message))
+            fail_msg("%s", message.text);
+        for (int k = 0; k < 2; k++) {
+            char *text = read_solution(trial.lab, k);
+            const char *at = strstr(text, CASES[i].was);
+            if (k != CASES[i].stage) {
+                add_file(&files, trial.lab, k, text);
+            } else {
+                assert_non_null(at);
+                char *wrong = memory_format("%.*s%s%s", (int)(at - text), text, CASES[i].by,
+                                            at + strlen(CASES[i].was));
+                add_file(&files, trial.lab, k, wrong);
+                free(wrong);
+            }
+            free(text);
+        }
         verdict = (Verdict){.seed = 1};
         if (!diagnose(&trial.pictures, NULL, &files, &verdict, NULL, &message))
             fail_msg("%s", message.text);
         submission_files_close(&files);
+        lab_pictures_close(&trial.pictures);
         assert_int_equal(verdict.mistake_count, 1);
         assert_string_equal(verdict.mistakes[0].name, CASES[i].name);
     }
-    for (int k = 0; k < 2; k++)
-        free(trial.texts[k]);
-    lab_pictures_close(&trial.pictures);
 }
 
 int main(void)

@@ -42,7 +42,7 @@ void values_trace(const Points *points, PointShader *vertex, PointShader *fragme
 }
 
 /* A vec4 has the same value as its first three numbers. */
-static bool has_value(const Values *values, const Values *of, int number)
+bool values_have(const Values *values, const Values *of, int number)
 {
     const double *numbers = of->items[number].numbers;
     const int size = of->items[number].size;
@@ -62,13 +62,22 @@ int values_shared(const Values *own, const Values *other)
 {
     int shared = 0;
     for (int i = 0; i < own->count; i++)
-        shared += has_value(other, own, i);
+        shared += values_have(other, own, i);
     return shared;
 }
 
 bool values_is_wrong(const Values *own, int number, const Values *mutant, const Values *right)
 {
-    return has_value(mutant, own, number) && !has_value(right, own, number);
+    return values_have(mutant, own, number) && !values_have(right, own, number);
+}
+
+bool values_differ(const Values *own, const Values *other, int number)
+{
+    const double *a = own->items[number].numbers, *b = other->items[number].numbers;
+    bool differ = false;
+    for (int i = 0; i < own->items[number].size; i++)
+        differ |= fabs(a[i] - b[i]) > 1e-4 * fmax(1, fabs(b[i]));
+    return differ;
 }
 
 enum { BAG = 1024 };

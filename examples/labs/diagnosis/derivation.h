@@ -28,6 +28,8 @@ typedef struct Found {
     double apart;
     int shared; /* of the submission's values */
     int other;  /* operations and names that the submission has more or less often */
+    bool
+        there; /* of the submission's changes: it changes the first wrong value, and no right one */
 } Found;
 
 typedef struct Derivation {
@@ -57,11 +59,11 @@ typedef struct Derivation {
     int given[2][MAX_GIVEN], given_count[2]; /* functions of the submission, the starter's */
     char *undeclared[2];                     /* uniforms that the submission's stages lack */
     GlslStage stage;                         /* that is mutated */
-    Found best;                /* of those that compute the same; its text is NULL: none does */
-    bool unique;               /* no other has as many of the submission's values */
-    Found mending;             /* the change of the submission that makes it right, if `mended` */
-    bool mended, mended_there; /* `mended`: within the tolerance */
-    Found second; /* of two changes, if `two_found`: of the submission, or of a right program */
+    Found best;    /* of those that compute the same; its text is NULL: none does */
+    bool unique;   /* no other has as many of the submission's values */
+    Found mending; /* the change of the submission that makes it right, if `mended` */
+    bool mended;   /* within the tolerance */
+    Found second;  /* of two changes, if `two_found`: of the submission, or of a right program */
     bool two_found, mended_twice;
     int place_node; /* of the submission, in place_stage: the first wrong value; 0: not known */
     GlslStage place_stage;
@@ -169,6 +171,12 @@ void values_trace(const Points *points, PointShader *vertex, PointShader *fragme
 
 /* How many of `own` are among the others. */
 int values_shared(const Values *own, const Values *other);
+
+/* Whether the value of this number is among others. */
+bool values_have(const Values *values, const Values *of, int number);
+
+/* Whether the other one of this number, of the same shape, is another than rounding explains. */
+bool values_differ(const Values *own, const Values *other, int number);
 
 /* Whether the submission's value of this number is the mutant's and not the right program's. */
 bool values_is_wrong(const Values *own, int number, const Values *mutant, const Values *right);

@@ -36,9 +36,30 @@ static void take_numbers(const GlslTree *tree, int node, double *numbers, int *c
         take_numbers(tree, i, numbers, count);
 }
 
+/* How often a number is multiplied by itself. */
+static int count_squares(const GlslTree *tree, int node)
+{
+    const GlslNode *at = &tree->nodes[node];
+    char left[64], right[64];
+    int count = 0;
+    if ((at->kind == GLSL_BINARY || at->kind == GLSL_ASSIGN) && at->op == GLSL_MULTIPLY &&
+        at->type == GLSL_FLOAT) {
+        glsl_expression_text(tree, at->first, left, sizeof left);
+        glsl_expression_text(tree, tree->nodes[at->first].next, right, sizeof right);
+        count = strcmp(left, right) == 0;
+    }
+    for (int i = at->first; i; i = tree->nodes[i].next)
+        count += count_squares(tree, i);
+    return count;
+}
+
 static void take_own_numbers(Derivation *all)
 {
     double *numbers = all->numbers;
+    /* The exponent of a power without pow. */
+    const int squares = count_squares(all->own[1].tree, all->own[1].tree->root);
+    for (int i = 1; i <= squares && i <= 6; i++)
+        take_number(numbers, &all->number_count, exp2(i));
     for (int i = 0; i < 2; i++)
         take_numbers(all->own[i].tree, all->own[i].tree->root, numbers, &all->number_count);
     const int count = all->own_number_count = all->number_count;
@@ -298,7 +319,7 @@ static void say_mending(Derivation *all, const Found *found, Verdict *verdict)
 {
     const Mutation *mending = &found->mutation, *best = &all->best.mutation;
     const bool sole = all->mended_twice ? all->unique : all->mending.apart <= EQUAL;
-    const bool known = all->best.text && best->general && all->unique && all->mended_there;
+    const bool known = all->best.text && best->general && all->unique && all->mending.there;
     char place[VERDICT_SENTENCE_SIZE], sentence[VERDICT_SENTENCE_SIZE], look[VERDICT_SENTENCE_SIZE];
     derivation_place(all, found->stage, mending->node, place, sizeof place);
     snprintf(look, sizeof look, "%.250s; all is right with %s%s", place,
@@ -332,7 +353,7 @@ static void say(Derivation *all, Verdict *verdict)
     const double sure = all->unique ? UNIQUE : ONE_OF_SEVERAL;
     char look[VERDICT_SENTENCE_SIZE];
     const bool other = found->text && found->mutation.general && all->unique && is_inside(all);
-    if (all->mended_twice || (all->mended && (all->mended_there || !other || all->lab->shadow))) {
+    if (all->mended_twice || (all->mended && (all->mending.there || !other || all->lab->shadow))) {
         say_mending(all, &all->mending, verdict);
         if (all->mended_twice)
             say_mending(all, &all->second, verdict);
@@ -343,7 +364,7 @@ static void say(Derivation *all, Verdict *verdict)
             snprintf(look, sizeof look, "where %s should be", found->mutation.was);
         if (found->first)
             add(&found->first->mutation, look, false, sure, verdict);
-        add(&found->mutation, look, !found->first, sure, verdict);
+        add(&found->mutation, look, !found->first && is_inside(all), sure, verdict);
     }
     const bool same = found->first && found->first->mutation.rank == found->mutation.rank;
     snprintf(verdict->message, sizeof verdict->message, "%s%s%s%s",

@@ -45,18 +45,20 @@ void first_wrong_find(Derivation *all, Verdict *verdict, FirstWrong *first)
     values_trace(&all->points, &all->own[0], &all->own[1], all->order[0], own);
     values_trace(&all->points, pair[0], pair[1], all->order[0], right);
     for (int i = 0; i < own->count && i < right->count && !other; i++) {
-        const double *numbers = own->items[i].numbers, *wanted = right->items[i].numbers;
         const GlslStage stage = own->items[i].stage;
         const char *name = all->own[stage].tree->symbols[own->items[i].symbol].name;
         const int size = own->items[i].size;
+        const PointShader *mended = pair[stage];
         char place[VERDICT_SENTENCE_SIZE], where[100] = "", is[80], should[80];
-        for (int k = 0; k < size; k++)
-            other |= fabs(numbers[k] - wanted[k]) > 1e-4 * fmax(1, fabs(wanted[k]));
+        /* It went on elsewhere. */
+        if (strcmp(name, mended->tree->symbols[right->items[i].symbol].name) != 0)
+            break;
+        other = values_differ(own, right, i);
         if (!other)
             continue;
         put_place(all, all->order[0], where);
-        put_numbers(numbers, size, is);
-        put_numbers(wanted, size, should);
+        put_numbers(own->items[i].numbers, size, is);
+        put_numbers(right->items[i].numbers, size, should);
         derivation_place(all, stage, own->items[i].node, place, sizeof place);
         verdict_add_symptom(verdict,
                             "Wrong first, where it is worst%s: %s is %s; right is %s. See %s.",

@@ -95,9 +95,40 @@ static bool reaches(const GlslTree *tree, int node, int wanted)
     return found;
 }
 
-/* Whether it is where the first value is that is wrong, if that is known, or decides whether that
- * is computed. */
-static bool is_there(const Derivation *all, const Found *found)
+/* Whether the change is upstream of the first wrong value: that becomes another by it, and what is
+ * right before stays as it is. */
+static bool leads_there(Derivation *all, PointShader *const mended[2])
+{
+    Values *own = memory_new(3, sizeof *own), *other = own + 1, *right = own + 2;
+    bool leads = false, spoils = false, kept[MAX_VALUES], right_ones[MAX_VALUES];
+    int before = 0;
+    memset(kept, true, sizeof kept);
+    memset(right_ones, true, sizeof right_ones);
+    for (int k = 0; k < TRACED && 2 * k < all->points.count; k++) {
+        const int point = all->order[2 * k];
+        values_trace(&all->points, &all->own[0], &all->own[1], point, own);
+        values_trace(&all->points, mended[0], mended[1], point, other);
+        values_trace(&all->points, &all->right[0], &all->right[1], point, right);
+        for (int i = 0; i < own->count && i < other->count; i++) {
+            const bool differs = values_differ(own, other, i);
+            if (own->items[i].node == all->place_node && own->items[i].stage == all->place_stage) {
+                leads |= differs;
+                break;
+            }
+            kept[i] &= !differs;
+            right_ones[i] &= values_have(right, own, i);
+            before = i >= before ? i + 1 : before;
+        }
+    }
+    for (int i = 0; i < before; i++)
+        spoils |= right_ones[i] && !kept[i];
+    free(own);
+    return leads && !spoils;
+}
+
+/* Whether it is where the first value is that is wrong, if that is known, or upstream, or decides
+ * whether that is computed. */
+static bool is_there(Derivation *all, const Found *found, PointShader *const mended[2])
 {
     const GlslTree *tree = all->own[found->stage].tree;
     const int place = all->place_node, node = found->mutation.node;
@@ -105,7 +136,7 @@ static bool is_there(const Derivation *all, const Found *found)
     for (int i = 1; i < tree->node_count && place > 0 && !there; i++)
         there = found->stage == all->place_stage && tree->nodes[i].kind == GLSL_IF &&
                 mend_holds(tree, i, place) && reaches(tree, tree->nodes[i].first, node);
-    return there;
+    return there || (place > 0 && leads_there(all, mended));
 }
 
 /* Below 0: a is the better change: right to the last digit, and not by a formula instead of all;
@@ -114,11 +145,10 @@ static int compare(const Derivation *all, const Found *a, const Found *b)
 {
     const GlslPlace *place = &all->own[a->stage].tree->nodes[a->mutation.node].place;
     const GlslPlace *other = &all->own[b->stage].tree->nodes[b->mutation.node].place;
-    const bool there = is_there(all, a), other_there = is_there(all, b);
     const bool exact = a->apart <= DERIVATION_EQUAL && !a->mutation.formula;
     const bool other_exact = b->apart <= DERIVATION_EQUAL && !b->mutation.formula;
     return exact != other_exact                   ? (int)other_exact - (int)exact
-           : there != other_there                 ? (int)other_there - (int)there
+           : a->there != b->there                 ? (int)b->there - (int)a->there
            : a->mutation.rank != b->mutation.rank ? a->mutation.rank - b->mutation.rank
            : a->stage != b->stage                 ? (int)a->stage - (int)b->stage
            : place->line != other->line
@@ -138,7 +168,7 @@ bool mend_open(const Derivation *all, const char *text, bool own, PointShader *s
 bool mend_try(Derivation *all, const Mutation *mutation, const char *text)
 {
     PointShader shader, *pair[2] = {&all->own[0], &all->own[1]};
-    Found found = {.mutation = *mutation, .stage = all->stage};
+    Found found = {.mutation = *mutation, .stage = all->stage, .there = true}; /* at best */
     if (mend_is_given(all, mutation) || loses(all, mutation) ||
         (all->mended && compare(all, &found, &all->mending) >= 0))
         return false;
@@ -148,6 +178,8 @@ bool mend_try(Derivation *all, const Mutation *mutation, const char *text)
     found.apart = mend_apart(all, pair, all->tolerance);
     const char *texts[2] = {NULL};
     texts[all->stage] = text;
+    if (found.apart <= all->tolerance)
+        found.there = is_there(all, &found, pair);
     const bool better = found.apart <= all->tolerance &&
                         (!all->mended || compare(all, &found, &all->mending) < 0) &&
                         mend_passes(all, texts);
@@ -176,6 +208,5 @@ bool mend_find(Derivation *all)
                        try_change, all);
     }
     fit_find(all);
-    all->mended_there = all->mended && is_there(all, &all->mending);
     return all->mended && all->mending.apart <= DERIVATION_EQUAL;
 }

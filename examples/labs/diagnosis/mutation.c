@@ -1,8 +1,9 @@
 /* A mutant is made as text: the tree is printed with a mark for one node, and what a rule says
  * replaces the mark. So the parser checks the types, and a rule is one line. In a rule $0 is the
- * node's own text, $1 to $3 are its operands, $4 what its variable begins with, $6 and $7 those of
- * the first, $8 and $9 those of the second, # is a number, @ any name of the rule's type, and ~ any
- * of a float. */
+ * node's own text, $1 to $3 are its operands, $4 what its variable begins with, $5 the condition of
+ * an `if` right before the statement, $6 and $7 those of the first, $8 and $9 those of the second,
+ * # is a number, @ any name of the rule's type, ~ any of a float, and % the node with two
+ * exchanged. */
 #include "labs/diagnosis/mutation.h"
 
 #include "base/memory.h"
@@ -13,10 +14,11 @@
 #include <string.h>
 
 /* Of rules for all expressions of a type. */
-enum { ANY_FLOAT = 100, ANY_VEC3, ANY_NAME, ANY_BOTH, ANY_VEC2 };
+enum { ANY_FLOAT = 100, ANY_VEC3, ANY_NAME, ANY_BOTH, ANY_VEC2, ANY_OPERATION };
 
 typedef struct Rule {
-    int kind, op; /* `op`: of a built-in function its number, -1: any */
+    int kind, op; /* `op`: of a built-in function its number, -1: any; of one component: 1 for
+                     xyzw, 2 for rgba */
     const char *by, *name, *sentence;
     const char *mends; /* the mistake's name where this change mends it; "": "$0 for" the new */
 } Rule;
@@ -34,6 +36,7 @@ enum {
                    }) /
                    sizeof(Rule),
     MAX_NAMES = 48,
+    MAX_LEAVES = 12,
     NAME_SIZE = 72,
     OPERANDS = 10
 };
@@ -46,10 +49,11 @@ typedef struct Maker {
     void *context;
     bool ended;
     const char *name, *number;    /* that are tried */
+    char exchanged[512];          /* the node's text with two leaves exchanged */
     char *before, *after;         /* the text around the node */
     char operands[OPERANDS][512]; /* the node's text, those of its children, what its variable
-                                     begins with; from 6 on: those of the children of its first and
-                                     of its second child */
+                                     begins with, the condition before it; from 6 on: those of the
+                                     children of its first and of its second child */
     int node, variant;
     const Mutation *only; /* NULL: all */
     unsigned *puts;       /* of what was tried at the node, the hashes */
@@ -110,6 +114,23 @@ static bool cut(Maker *maker, int mark)
     return at;
 }
 
+static bool is_jump(const GlslNode *node)
+{
+    return node->kind >= GLSL_RETURN && node->kind <= GLSL_DISCARD;
+}
+
+/* The condition of an `if` right before a statement; 0: there is none. */
+static int condition_before(const GlslTree *tree, int statement)
+{
+    for (int i = 1; i < tree->node_count; i++) {
+        const int child = tree->nodes[i].kind == GLSL_BLOCK ? tree->nodes[i].first : 0;
+        for (int k = child; k; k = tree->nodes[k].next)
+            if (tree->nodes[k].next == statement && tree->nodes[k].kind == GLSL_IF)
+                return tree->nodes[k].first;
+    }
+    return 0;
+}
+
 /* What a variable begins with. */
 static int first_value(const GlslTree *tree, int symbol)
 {
@@ -142,6 +163,7 @@ static void read_operands(Maker *maker)
     const GlslNode *variable = node->kind == GLSL_ASSIGN ? &nodes[node->first] : node;
     const bool named = variable->kind == GLSL_NAME;
     read_texts(maker, named ? first_value(maker->tree, variable->symbol) : 0, 4, 1);
+    read_texts(maker, statement ? condition_before(maker->tree, maker->node) : 0, 5, 1);
 }
 
 /* Whether an operand has to stand in parentheses: any operator binds it. */
@@ -169,13 +191,15 @@ static void fill(const Maker *maker, const char *form, bool grouped, char *text,
             put = maker->name;
         else if (*at == '#')
             put = maker->number;
+        else if (*at == '%')
+            put = maker->exchanged;
         if (!put) {
             text[used++] = *at;
             text[used] = '\0';
             continue;
         }
         used += (size_t)snprintf(text + used, size - used,
-                                 grouped && is_compound(put) ? "(%s)" : "%s", put);
+                                 grouped && *at != '%' && is_compound(put) ? "(%s)" : "%s", put);
     }
 }
 
@@ -211,10 +235,12 @@ static void make(Maker *maker, int rule)
                          .formula = !strpbrk(RULES[rule].by, "$@") && strchr(RULES[rule].by, '('),
                          .general =
                              !strpbrk(RULES[rule].by, "#@~") && RULES[rule].kind != GLSL_LITERAL};
+    const GlslNode *node = &maker->tree->nodes[maker->node];
+    const bool jump = is_jump(node), statement = node->kind == GLSL_EXPRESSION;
     char by[2048];
-    fill(maker, RULES[rule].by, true, by, sizeof by);
+    fill(maker, RULES[rule].by, !statement, by, sizeof by);
     if (strcmp(by, maker->operands[0]) == 0 || (!by[0] && RULES[rule].by[0]) ||
-        !is_fresh(maker, by))
+        (!maker->operands[5][0] && strstr(RULES[rule].by, "$5")) || !is_fresh(maker, by))
         return;
     fill(maker, RULES[rule].name, false, mutation.name, sizeof mutation.name);
     snprintf(mutation.was, sizeof mutation.was, "%.199s", maker->operands[0]);
@@ -223,10 +249,9 @@ static void make(Maker *maker, int rule)
         fill(maker, RULES[rule].mends, false, mutation.mends, sizeof mutation.mends);
     else
         put_exchange(&mutation);
-    /* A statement is followed by its semicolon; within an expression anything is grouped. */
-    const GlslNode *node = &maker->tree->nodes[maker->node];
-    const bool whole = node->kind == GLSL_EXPRESSION || node->kind == GLSL_ASSIGN;
-    char *put = memory_format(whole || !is_compound(by) ? "%s" : "(%s)", by);
+    /* An expression's statement is followed by its semicolon; within one anything is grouped. */
+    const bool whole = statement || node->kind == GLSL_ASSIGN || !is_compound(by);
+    char *put = memory_format(jump ? "%s;" : whole ? "%s" : "(%s)", by);
     char *text = memory_format("%s%s%s", maker->before, put, maker->after);
     mutation.put = put;
     maker->ended = !maker->take(maker->context, &mutation, text);
@@ -255,6 +280,79 @@ static int names_of(const GlslTree *tree, int type, char names[MAX_NAMES][NAME_S
     return count;
 }
 
+static bool is_name(const GlslNode *node)
+{
+    return node->kind == GLSL_NAME || node->kind == GLSL_INDEX || node->kind == GLSL_SWIZZLE;
+}
+
+/* Names, elements and components below a node. */
+typedef struct Leaves {
+    int nodes[MAX_LEAVES], count;
+    char texts[MAX_LEAVES][NAME_SIZE];
+} Leaves;
+
+static void take_leaves(const GlslTree *tree, int node, Leaves *leaves)
+{
+    if (is_name(&tree->nodes[node]) && leaves->count < MAX_LEAVES) {
+        leaves->nodes[leaves->count] = node;
+        glsl_expression_text(tree, node, leaves->texts[leaves->count++], NAME_SIZE);
+        return;
+    }
+    for (int i = tree->nodes[node].first; i; i = tree->nodes[i].next)
+        take_leaves(tree, i, leaves);
+}
+
+/* Whether the text stands once only. */
+static bool is_sole(const Leaves *leaves, int leaf)
+{
+    int count = 0;
+    for (int i = 0; i < leaves->count; i++)
+        count += strcmp(leaves->texts[i], leaves->texts[leaf]) == 0;
+    return count == 1;
+}
+
+static void exchange(GlslTree *tree, int a, int b)
+{
+    const GlslNode was = tree->nodes[a];
+    tree->nodes[a] = tree->nodes[b];
+    tree->nodes[b] = was;
+    tree->nodes[b].next = tree->nodes[a].next;
+    tree->nodes[a].next = was.next;
+}
+
+/* With a leaf of the first operand and one of the others exchanged; not both operands of a sum or
+ * product. What stands more than once is rather one taken for another. */
+static void apply_exchanges(Maker *maker, int rule)
+{
+    GlslTree *tree = maker->tree;
+    const GlslNode *node = &tree->nodes[maker->node];
+    const bool commutes = node->kind == GLSL_BINARY && node->op <= GLSL_MULTIPLY;
+    const int second = tree->nodes[node->first].next;
+    Leaves all = {.count = 0};
+    take_leaves(tree, node->first, &all);
+    const int first = all.count;
+    for (int i = second; i; i = tree->nodes[i].next)
+        take_leaves(tree, i, &all);
+    maker->variant = 0;
+    for (int i = 0; i < first; i++) {
+        for (int k = first; k < all.count && !maker->ended; k++) {
+            const int a = all.nodes[i], b = all.nodes[k];
+            char name[2 * NAME_SIZE + 8];
+            maker->variant++;
+            if (tree->nodes[a].type != tree->nodes[b].type || !is_sole(&all, i) ||
+                !is_sole(&all, k) || (commutes && a == node->first && b == second) ||
+                (maker->only && maker->only->variant != maker->variant))
+                continue;
+            exchange(tree, a, b);
+            glsl_expression_text(tree, maker->node, maker->exchanged, sizeof maker->exchanged);
+            exchange(tree, a, b);
+            snprintf(name, sizeof name, "%s and %s", all.texts[i], all.texts[k]);
+            maker->name = name;
+            make(maker, rule);
+        }
+    }
+}
+
 /* With each name and each number that the rule has. */
 static void apply(Maker *maker, int rule)
 {
@@ -280,11 +378,6 @@ static void apply(Maker *maker, int rule)
     }
 }
 
-static bool is_name(const GlslNode *node)
-{
-    return node->kind == GLSL_NAME || node->kind == GLSL_INDEX || node->kind == GLSL_SWIZZLE;
-}
-
 /* Products of numbers and vectors are the same in either order. */
 static bool has_matrix(const GlslTree *tree, const GlslNode *node)
 {
@@ -302,6 +395,9 @@ static bool matches(const GlslTree *tree, const GlslNode *node, const Rule *rule
         return node->type == GLSL_VEC3 && !literal;
     case ANY_VEC2:
         return node->type == GLSL_VEC2 && !literal;
+    case ANY_OPERATION:
+        return node->kind == GLSL_BINARY ||
+               (node->kind >= GLSL_CALL && node->kind <= GLSL_CONSTRUCT);
     case ANY_BOTH:
         return (node->type == GLSL_VEC3 || node->type == GLSL_FLOAT) && !literal;
     case ANY_NAME:
@@ -313,7 +409,12 @@ static bool matches(const GlslTree *tree, const GlslNode *node, const Rule *rule
     }
     if (node->kind != rule->kind || (strcmp(rule->by, "$2 * $1") == 0 && !has_matrix(tree, node)))
         return false;
-    return rule->kind == GLSL_BUILT_IN ? rule->op < 0 || GLSL_FUNCTIONS[node->symbol].id == rule->op
+    return rule->kind == GLSL_SWIZZLE && rule->op
+               ? glsl_swizzle_count(node->op) == 1 && node->op >> 14 == rule->op - 1
+           : rule->kind == GLSL_RETURN && !rule->by[0]
+               ? !node->first || tree->nodes[node->first].kind == GLSL_NOTHING
+           : rule->kind == GLSL_BUILT_IN
+               ? rule->op < 0 || GLSL_FUNCTIONS[node->symbol].id == rule->op
            : rule->kind == GLSL_LITERAL || rule->kind == GLSL_CONSTRUCT ? node->type == rule->op
            : rule->kind == GLSL_BINARY || rule->kind == GLSL_UNARY || rule->kind == GLSL_ASSIGN
                ? node->op == rule->op
@@ -329,7 +430,7 @@ static void mutate(Maker *maker, int node, int mark)
         for (int i = 0; i < RULE_COUNT && !maker->ended; i++)
             if ((!maker->only || maker->only->rank == i) &&
                 matches(maker->tree, &maker->tree->nodes[node], &RULES[i]))
-                apply(maker, i);
+                (RULES[i].kind == ANY_OPERATION ? apply_exchanges : apply)(maker, i);
     }
     maker->put_count = 0;
     free(maker->before);
@@ -343,7 +444,7 @@ static void walk(Maker *maker, int node, int mark)
     const bool expression = at->kind >= GLSL_LITERAL && at->kind <= GLSL_CONSTRUCT;
     if (maker->ended)
         return;
-    if ((expression && at->type != GLSL_VOID) || at->kind == GLSL_EXPRESSION)
+    if ((expression && at->type != GLSL_VOID) || at->kind == GLSL_EXPRESSION || is_jump(at))
         mutate(maker, node, mark);
     for (int i = at->first; i; i = maker->tree->nodes[i].next)
         if (at->kind != GLSL_ASSIGN || i != at->first)

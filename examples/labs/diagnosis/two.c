@@ -294,15 +294,16 @@ static void try_pairs(Search *search)
     mutate_all(search, 1 - first->stage, try_second);
 }
 
-/* Each of the best steps with any second, as one that hides the other; one that computes what the
- * one before does is left out. */
-static void try_any(Search *search, int firsts)
+/* Each of the best steps with any second, as one that hides the other; of the submission's the best
+ * with any, the others with likely ones. One that computes what the one before does is left out. */
+static void try_any(Search *search)
 {
     const Step *steps = search->steps;
     search->any = true;
     search->pairs = 0;
-    for (int i = 0; i < search->step_count && i < firsts && search->pairs < MOST_ANY; i++) {
+    for (int i = 0; i < search->step_count && i < WITH_ANY && search->pairs < MOST_ANY; i++) {
         search->first = i;
+        search->likely = search->mends && i > 0;
         if (i == 0 || steps[i].score != steps[i - 1].score)
             try_pairs(search);
     }
@@ -377,7 +378,7 @@ bool two_find(Derivation *all, TwoOf of)
         mutate_all(search, (GlslStage)stage, try_first);
     try_all_steps(search);
     if (!all->two_found && of != TWO_LIKELY)
-        try_any(search, mends ? 1 : WITH_ANY);
+        try_any(search);
     all->mended_twice = mends && all->two_found;
     for (int i = 0; i < search->step_count; i++)
         close_step(&search->steps[i]);
