@@ -50,9 +50,14 @@ void first_wrong_find(Derivation *all, Verdict *verdict, FirstWrong *first)
         const int size = own->items[i].size;
         const PointShader *mended = pair[stage];
         char place[VERDICT_SENTENCE_SIZE], where[100] = "", is[80], should[80];
-        /* It went on elsewhere. */
-        if (strcmp(name, mended->tree->symbols[right->items[i].symbol].name) != 0)
-            break;
+        /* It went on elsewhere: the result is left, which is the last. */
+        if (strcmp(name, mended->tree->symbols[right->items[i].symbol].name) != 0) {
+            const int last = own->count - 1;
+            right->items[last] = right->items[right->count - 1];
+            right->count = i < last ? own->count : 0;
+            i = i < last ? last - 1 : i;
+            continue;
+        }
         other = values_differ(own, right, i);
         if (!other)
             continue;
