@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "base/paths.h"
 #include "base/process.h"
+#include "base/sanitized.h"
 #include "labs/sandbox/bubblewrap.h"
 
 #include <arpa/inet.h>
@@ -289,13 +290,14 @@ char *sandbox_part(const SandboxRun *run, SandboxPart part, size_t *size)
     return at;
 }
 
-/* What a sanitizer said, if `check` is built with one and itself is at fault, not what it judges.
- */
+/* What a sanitizer said, if `check` is built with one: then it is at fault, not what it judges. In
+ * other builds a submission that prints the like is as wrong as any. */
 static const char *sanitizer_said(const SandboxRun *run)
 {
     static const char *const marks[] = {"runtime error: ", "SUMMARY: ", "Sanitizer"};
     const char *found = NULL;
-    for (size_t i = 0; run->bytes && i < sizeof marks / sizeof marks[0] && !found; i++)
+    const size_t count = ADDRESS_SANITIZER && run->bytes ? sizeof marks / sizeof marks[0] : 0;
+    for (size_t i = 0; i < count && !found; i++)
         found = memmem(run->bytes, run->size, marks[i], strlen(marks[i]));
     return found;
 }

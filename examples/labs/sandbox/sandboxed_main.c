@@ -84,8 +84,8 @@ static bool set_environment(const char *folder, bool measured, Message *message)
                                        "UBSAN_OPTIONS"};
     enum { KEPT = sizeof kept / sizeof kept[0] };
     const char *values[KEPT];
-    unsigned least =
-        0; /* no other values of these: some let the driver draw something else, or crash */
+    /* No other values of these: some let the driver draw something else, or crash. */
+    unsigned least = 0;
     for (int i = 0; i < KEPT; i++)
         values[i] = getenv(kept[i]);
     for (int i = 0; OPTIONS_LEAST[i]; i++)
