@@ -12,6 +12,7 @@
 #define FLOAT {24, -126, 127, false}
 #define KEPT {24, -126, 127, true}
 #define HALF {11, -14, 15, true}
+#define HALF_CUT {11, -14, 15, true, true}
 #define ALL(highp, mediump) {DOUBLE, mediump, mediump, highp}
 /* clang-format on */
 
@@ -21,7 +22,7 @@ static const GlslArithmetic NARROW = {.of = ALL(FLOAT, FLOAT), .mesa = true}; /*
 static const GlslArithmetic SOFTPIPE = {.of = ALL(FLOAT, FLOAT)};
 static const GlslArithmetic HALVED = {.of = ALL(FLOAT, HALF)};
 static const GlslArithmetic WHOLE = {.of = ALL(KEPT, KEPT)};
-static const GlslArithmetic NVIDIA = {.of = ALL(FLOAT, HALF), .cut = 12};
+static const GlslArithmetic NVIDIA = {.of = ALL(FLOAT, HALF_CUT), .cut = 12};
 
 const GlslDevice GLSL_DEVICES[] = {
     {"llvmpipe", &GLSL_LLVMPIPE}, {"llvmpipe-128", &NARROW}, {"softpipe", &SOFTPIPE},
@@ -31,7 +32,9 @@ const GlslDevice GLSL_DEVICES[] = {
 
 static const char BYTES[] = ";bytes=";
 
-/* "24,-126,127,kept" after `name`. */
+static const char KEPT_TOO[] = ",kept", CUT[] = ",cut";
+
+/* "24,-126,127,kept,cut" after `name`. */
 static bool read_numbers(const char *text, const char *name, GlslNumbers *numbers)
 {
     const char *at = strstr(text, name);
@@ -41,7 +44,10 @@ static bool read_numbers(const char *text, const char *name, GlslNumbers *number
     const long bits = strtol(at + strlen(name), &end, 10);
     const long least = *end == ',' ? strtol(end + 1, &end, 10) : 1;
     const long most = *end == ',' ? strtol(end + 1, &end, 10) : 0;
-    *numbers = (GlslNumbers){(int)bits, (int)least, (int)most, strncmp(end, ",kept", 5) == 0};
+    const bool kept = strncmp(end, KEPT_TOO, strlen(KEPT_TOO)) == 0;
+    end += kept ? strlen(KEPT_TOO) : 0;
+    *numbers =
+        (GlslNumbers){(int)bits, (int)least, (int)most, kept, strncmp(end, CUT, strlen(CUT)) == 0};
     return bits >= 2 && bits <= 53 && least >= -1022 && least < 0 && most > 0 && most <= 1023;
 }
 
@@ -64,12 +70,14 @@ bool glsl_arithmetic_read(const char *text, GlslArithmetic *arithmetic)
 
 void glsl_arithmetic_print(const GlslArithmetic *arithmetic, char *text, size_t size)
 {
-    const GlslNumbers *highp = &arithmetic->of[GLSL_HIGHP],
-                      *mediump = &arithmetic->of[GLSL_MEDIUMP];
-    snprintf(text, size, "highp=%d,%d,%d%s;mediump=%d,%d,%d%s", highp->bits, highp->least,
-             highp->most, highp->denormals ? ",kept" : "", mediump->bits, mediump->least,
-             mediump->most, mediump->denormals ? ",kept" : "");
-    const size_t used = strlen(text);
+    size_t used = 0;
+    for (int i = GLSL_HIGHP; i >= GLSL_MEDIUMP; i--) {
+        const GlslNumbers *numbers = &arithmetic->of[i];
+        snprintf(text + used, size - used, "%s=%d,%d,%d%s%s",
+                 i == GLSL_HIGHP ? "highp" : ";mediump", numbers->bits, numbers->least,
+                 numbers->most, numbers->denormals ? KEPT_TOO : "", numbers->cut ? CUT : "");
+        used = strlen(text);
+    }
     if (arithmetic->cut)
         snprintf(text + used, size - used, "%s%d", BYTES, arithmetic->cut);
 }

@@ -140,8 +140,22 @@ static float mesa_log2(const GlslArithmetic *arithmetic, float x)
     return add_product(arithmetic, y, series, (float)(exponent - 1));
 }
 
+/* A function's correct result as a device has it that cuts, or as it is. */
+static double function_of(const GlslArithmetic *arithmetic, int precision, double x)
+{
+    const GlslNumbers *numbers = &arithmetic->of[precision];
+    if (!numbers->cut || x == 0 || !isfinite(x))
+        return x;
+    const double unit = ldexp(1, ilogb(x) - numbers->bits + 1);
+    return round_to(arithmetic, precision, trunc(x / unit) * unit);
+}
+
 static double power(const GlslArithmetic *arithmetic, int precision, double x, double y)
 {
+    if (arithmetic->of[precision].cut && x > 0) {
+        const double log = function_of(arithmetic, precision, log2(x));
+        return function_of(arithmetic, precision, exp2(round_to(arithmetic, precision, log * y)));
+    }
     if (!arithmetic->mesa)
         return pow(x, y);
     const double log = round_to(arithmetic, precision, mesa_log2(arithmetic, (float)x));
@@ -169,7 +183,7 @@ static int undefined(int op, double a, double b)
 static double function(const GlslArithmetic *arithmetic, const GlslInstruction *at, double a,
                        double b)
 {
-    const bool mesa = arithmetic->mesa;
+    const bool mesa = arithmetic->mesa, cut = arithmetic->of[at->precision].cut;
     /* clang-format off */
     switch (at->op) {
     case OP_SIN: return sin(a);
@@ -179,11 +193,11 @@ static double function(const GlslArithmetic *arithmetic, const GlslInstruction *
     case OP_ATAN: return atan(a);
     case OP_ATAN2: return atan2(a, b);
     case OP_POW: return power(arithmetic, at->precision, a, b);
-    case OP_EXP2: return mesa ? mesa_exp2(arithmetic, (float)a) : exp2(a);
-    case OP_LOG2: return mesa ? mesa_log2(arithmetic, (float)a) : log2(a);
-    case OP_SQRT: return sqrt(a);
-    case OP_INVERSE_SQRT: return 1 / round_to(arithmetic, at->precision, sqrt(a));
-    case OP_DIVIDE: return a / b;
+    case OP_EXP2: return mesa ? mesa_exp2(arithmetic, (float)a) : function_of(arithmetic, at->precision, exp2(a));
+    case OP_LOG2: return mesa ? mesa_log2(arithmetic, (float)a) : function_of(arithmetic, at->precision, log2(a));
+    case OP_SQRT: return function_of(arithmetic, at->precision, sqrt(a));
+    case OP_INVERSE_SQRT: return cut ? function_of(arithmetic, at->precision, 1 / sqrt(a)) : 1 / round_to(arithmetic, at->precision, sqrt(a));
+    case OP_DIVIDE: return cut ? a * function_of(arithmetic, at->precision, 1 / b) : a / b;
     default: return b == 0 ? 0 : trunc(a / b); /* of ints */
     }
     /* clang-format on */

@@ -52,6 +52,7 @@ int glsl_event_symbol(const GlslCode *code, int instruction);
 typedef struct GlslNumbers {
     int bits, least, most;
     bool denormals; /* smaller numbers are kept */
+    bool cut;       /* roots, logarithms, powers of 2 and reciprocals are cut, not rounded */
 } GlslNumbers;
 
 /* A driver's numbers, for each precision (see GLSL_HIGHP). Ints have the first, without precision.
@@ -71,8 +72,8 @@ typedef struct GlslDevice {
 extern const GlslDevice GLSL_DEVICES[]; /* the last has no name */
 
 /* A device's name, or any text that holds "highp=24,-126,127;mediump=11,-14,15,kept": bits, least
- * and largest exponent, and "kept" with denormals; "llvmpipe" in it: with Mesa's functions;
- * "bytes=12": `cut`. False: neither. */
+ * and largest exponent, "kept" with denormals, "cut" with functions that are; "llvmpipe" in it:
+ * with Mesa's functions; "bytes=12": `cut`. False: neither. */
 bool glsl_arithmetic_read(const char *text, GlslArithmetic *arithmetic);
 void glsl_arithmetic_print(const GlslArithmetic *arithmetic, char *text, size_t size);
 

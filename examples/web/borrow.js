@@ -3,7 +3,7 @@
 (() => {
     const part = id => document.getElementById(id);
     const QUIET = 4; /* modules around the code */
-    const FORM = /^(?:llvmpipe;)?highp=\d+,-\d+,\d+(?:,kept)?;mediump=\d+,-\d+,\d+(?:,kept)?$/;
+    const FORM = /^(?:llvmpipe;)?highp=\d+,-\d+,\d+(?:,kept)?(?:,cut)?;mediump=\d+,-\d+,\d+(?:,kept)?(?:,cut)?(?:;bytes=\d+)?$/;
 
     /* One path; white around it in dark colours, too. */
     function draw(text) {

@@ -246,7 +246,7 @@ TEST(what_runs_before_each_event_runs_once)
 TEST(a_devices_numbers_are_read_as_they_are_printed)
 {
     static const char *const texts[] = {"highp=24,-126,127;mediump=11,-14,15,kept",
-                                        "highp=24,-126,127,kept;mediump=9,-14,15;bytes=12"};
+                                        "highp=24,-126,127,kept;mediump=9,-14,15,cut;bytes=12"};
     for (int i = 0; i < 2; i++) {
         GlslArithmetic read;
         char printed[128];
@@ -257,6 +257,26 @@ TEST(a_devices_numbers_are_read_as_they_are_printed)
     }
     GlslArithmetic none;
     assert_false(glsl_arithmetic_read("highp=24,-126,127;mediump=11,-14,15;bytes=99", &none));
+}
+
+/* In 11 bits x is 1229/4096, whose root is 1121.83/2048; 1 / 19 is 1724.6/32768. */
+TEST(a_device_may_cut_roots_and_reciprocals)
+{
+    static const char *const texts[] = {"highp=11,-14,15;mediump=11,-14,15",
+                                        "highp=11,-14,15,cut;mediump=11,-14,15"};
+    Shader root = ran("r = sqrt(x);"), quotient = ran("r = 2.0 / y;");
+    for (int i = 0; i < 2; i++) {
+        GlslArithmetic arithmetic;
+        assert_true(glsl_arithmetic_read(texts[i], &arithmetic));
+        root.run->arithmetic = quotient.run->arithmetic = &arithmetic;
+        glsl_run(root.run);
+        assert_true(*registers(&root, "gl_FragColor") == (1122 - i) / 2048.0);
+        *registers(&quotient, "y") = 19;
+        glsl_run(quotient.run);
+        assert_true(*registers(&quotient, "gl_FragColor") == 2 * (1725 - i) / 32768.0);
+    }
+    shader_close(&root);
+    shader_close(&quotient);
 }
 
 /* Results of float arithmetic in C, which is what the driver's highp is, to the last bit. */

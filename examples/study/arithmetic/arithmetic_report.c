@@ -235,6 +235,14 @@ static void put_meaning(const Arithmetics *found, FILE *file)
         }
 }
 
+/* Roots that are rounded to the nearest are off by half a unit at most, by a quarter on average;
+ * those that are cut by a unit and by a half. */
+static bool are_cut(const Arithmetic *arithmetic)
+{
+    const Accuracy *root = &arithmetic->accuracies[FUNCTION_SQRT];
+    return root->largest <= 1 && root->sum > 0.4 * (double)root->count;
+}
+
 /* For --arithmetic: of fragment shaders. */
 static void device_text(const Arithmetics *found, char *text, size_t size)
 {
@@ -242,8 +250,9 @@ static void device_text(const Arithmetics *found, char *text, size_t size)
     GlslArithmetic arithmetic = {.cut = found->raster.cut};
     for (int i = METER_HIGHP; i <= METER_MEDIUMP; i++) {
         const Format *format = &found->of[SHADER_FRAGMENT][i].format;
-        arithmetic.of[precisions[i]] = (GlslNumbers){format->bits, format->min_exponent,
-                                                     format->max_exponent, format->denormals};
+        arithmetic.of[precisions[i]] =
+            (GlslNumbers){format->bits, format->min_exponent, format->max_exponent,
+                          format->denormals, are_cut(&found->of[SHADER_FRAGMENT][i])};
     }
     glsl_arithmetic_print(&arithmetic, text, size);
 }
