@@ -8,10 +8,10 @@
 #include <string.h>
 
 /* clang-format off */
-#define DOUBLE {53, -1022, 1023, true}
-#define FLOAT {24, -126, 127, false}
-#define KEPT {24, -126, 127, true}
-#define HALF {11, -14, 15, true}
+#define DOUBLE {53, -1022, 1023, true, false}
+#define FLOAT {24, -126, 127, false, false}
+#define KEPT {24, -126, 127, true, false}
+#define HALF {11, -14, 15, true, false}
 #define HALF_CUT {11, -14, 15, true, true}
 #define ALL(highp, mediump) {DOUBLE, mediump, mediump, highp}
 /* clang-format on */
