@@ -113,8 +113,8 @@ static const Parameter FIRST[] = {
      "error:NAME: the part of that which NAME causes; blame: the line that causes most",
      PARAMETER_TEXT, .min = 1, .placeholder = "NAME", AT(show), .programs = GL_FILM},
     {"arithmetic",
-     "draw what another device would: llvmpipe, llvmpipe-128, softpipe, nvidia, half, float, or a file or "
-     "link with what precision measured there; with --probe and --show, of that device",
+     "draw what another device would: llvmpipe, llvmpipe-128, softpipe, nvidia, half, float, or a "
+     "file or link with what precision measured there; with --probe and --show, of that device",
      PARAMETER_TEXT, .min = 1, .placeholder = "DEVICE", AT(arithmetic), .programs = GL_FILM},
     {"deterministic",
      "use no more of an x86 processor than SSE4.1 and vectors of 128 bits, in Mesa and in the C "
@@ -150,6 +150,14 @@ static bool refuse_in_gallery(const Parameter *parameter, const char *text, Mess
 {
     (void)text;
     return message_set(message, "--%s: a gallery has one picture of each program", parameter->name);
+}
+
+static int program_of(const Usage *usage)
+{
+    return usage->gallery ? PROGRAM_GALLERY
+           : usage->study ? PROGRAM_STUDY
+           : usage->kind  ? usage->kind->program
+                          : PROGRAM_ONE;
 }
 
 /* A table that is filled. */
@@ -199,13 +207,8 @@ static bool has_own(const Usage *usage, const char *name)
 int options_table(const Usage *usage, Options *options, OptionsPurpose purpose,
                   Parameter table[OPTIONS_MAX])
 {
-    Filling filling = {.table = table,
-                       .program = usage->gallery ? PROGRAM_GALLERY
-                                  : usage->study ? PROGRAM_STUDY
-                                  : usage->kind  ? usage->kind->program
-                                                 : PROGRAM_ONE,
-                       .options = options,
-                       .purpose = purpose};
+    Filling filling = {
+        .table = table, .program = program_of(usage), .options = options, .purpose = purpose};
     for (size_t i = 0; i < sizeof FIRST / sizeof FIRST[0]; i++)
         add_row(&filling, &FIRST[i]);
     for (const Parameter *row = usage->kind ? usage->kind->options : NULL; row && row->name; row++)

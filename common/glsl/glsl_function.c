@@ -101,6 +101,13 @@ static bool is_built_in(const Parser *parser, const GlslSymbol *function)
     return find_built_in(parser, function->id, types, function->parameters) > 0;
 }
 
+static void check_main(Parser *parser, const GlslSymbol *function)
+{
+    if (strcmp(function->name, "main") == 0 &&
+        (function->type != GLSL_VOID || function->parameters))
+        complain(parser, function->place, "write void main(): it returns and takes nothing");
+}
+
 /* Puts a function among those of its name; returns the one that calls mean. */
 static int declare(Parser *parser, int symbol, const Token *name, bool defines)
 {
@@ -109,9 +116,7 @@ static int declare(Parser *parser, int symbol, const Token *name, bool defines)
     const int known = symbol_of(parser, name->name);
     const bool overloads = tree->symbols[known].kind == GLSL_FUNCTION;
     const int same = overloads ? find_same(tree, known, function) : 0;
-    if (strcmp(function->name, "main") == 0 &&
-        (function->type != GLSL_VOID || function->parameters))
-        complain(parser, function->place, "write void main(): it returns and takes nothing");
+    check_main(parser, function);
     if (is_built_in(parser, function))
         complain(parser, name->place, "%.60s is a function of the language: choose another name",
                  function->name);

@@ -174,6 +174,14 @@ static void expand_call(Preprocessor *all, Token name, int index)
     push(all, result, index, false);
 }
 
+/* __LINE__ and such are numbers of their place. */
+static void expand_number(Token *token, int number)
+{
+    token->kind = TOKEN_INT;
+    token->name = number; /* see token_integer */
+    token->length = 0;
+}
+
 static bool expand(Preprocessor *all, Token *token)
 {
     const int index = token->kind == TOKEN_NAME ? all->names->items[token->name].macro : 0;
@@ -181,12 +189,9 @@ static bool expand(Preprocessor *all, Token *token)
         return false;
     Macro *macro = &all->macros[index];
     if (macro->number != NO_NUMBER) {
-        /* __LINE__ and such are numbers of their place. */
-        token->kind = TOKEN_INT;
-        token->name = macro->number == LINE_NUMBER   ? token->place.line
-                      : macro->number == FILE_NUMBER ? token->place.file
-                                                     : macro->number; /* see token_integer */
-        token->length = 0;
+        expand_number(token, macro->number == LINE_NUMBER   ? token->place.line
+                             : macro->number == FILE_NUMBER ? token->place.file
+                                                            : macro->number);
         return false;
     }
     if (macro->active) {

@@ -295,19 +295,24 @@ static void write_numbers(JsonWriter *json, const char *name, const double *valu
     json_write_end(json);
 }
 
+static void write_place(JsonWriter *json, const Probe *probe, int event)
+{
+    char text[PLACE_TEXT];
+    const GlslPlace place = place_of(probe, event);
+    place_name(draw_of(probe)->sources[1], place, text);
+    json_write_text(json, "place", text);
+    json_write_whole(json, "line", place.line % SHADER_LINES_OF_FILE);
+    place_line(draw_of(probe)->sources[1], place, text);
+    json_write_text(json, "source", text);
+}
+
 static void write_trail(JsonWriter *json, const Probe *probe)
 {
     json_write_list(json, "assignments");
     for (int i = 0; i < probe->driver.count; i++) {
         const GlslEvent *event = &probe->driver.events[i], *exact = exact_event(probe, i);
         json_write_object(json, NULL);
-        char text[PLACE_TEXT];
-        const GlslPlace place = place_of(probe, i);
-        place_name(draw_of(probe)->sources[1], place, text);
-        json_write_text(json, "place", text);
-        json_write_whole(json, "line", place.line % SHADER_LINES_OF_FILE);
-        place_line(draw_of(probe)->sources[1], place, text);
-        json_write_text(json, "source", text);
+        write_place(json, probe, i);
         json_write_text(json, "name", tree_of(probe)->symbols[event->symbol].name);
         char *filled = filled_text(probe, i);
         if (filled)

@@ -54,6 +54,14 @@ static int faults_of(const ShowPixel *pixel)
     return faults;
 }
 
+static bool is_direction(const ShowPixel *pixel)
+{
+    double sum = 0;
+    for (int k = 0; k < pixel->count; k++)
+        sum += (double)pixel->values[k] * (double)pixel->values[k];
+    return pixel->count == 3 && fabs(sqrt(sum) - 1) <= DIRECTION;
+}
+
 static Range range_of(const Show *show)
 {
     Range range = {.least = INFINITY};
@@ -68,10 +76,7 @@ static Range range_of(const Show *show)
         if (!pixel->count || faults & UNDEFINED)
             continue;
         components = pixel->count > components ? pixel->count : components;
-        double sum = 0;
-        for (int k = 0; k < pixel->count; k++)
-            sum += (double)pixel->values[k] * (double)pixel->values[k];
-        directions += pixel->count == 3 && fabs(sqrt(sum) - 1) <= DIRECTION;
+        directions += is_direction(pixel);
         range.half += largest_of(pixel) > 0.5;
         range.largest = fmax(range.largest, largest_of(pixel));
         for (int k = 0; k < pixel->count; k++) {

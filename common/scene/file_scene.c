@@ -149,6 +149,15 @@ static Light light_at(const FileScene *made, const FileLight *from)
     return light;
 }
 
+static Light viewers_light(void)
+{
+    return (Light){.kind = LIGHT_DIRECTIONAL,
+                   .space = LIGHT_EYE,
+                   .direction = {0, 0, 1},
+                   .diffuse = {0.9, 0.9, 0.9},
+                   .specular = {0.9, 0.9, 0.9}};
+}
+
 /* What a white surface in an object's middle that faces a light reflects at most; a near light is
  * half the object's radius away. */
 static double brightness(const Light *light, Sphere around)
@@ -296,11 +305,7 @@ void file_scene_make(FileScene *made, double seconds, Scene *scene)
     for (int i = 0; i < file->light_count; i++)
         made->lights[i] = light_at(made, &file->lights[i]);
     if (file->light_count == 0 && !file->own)
-        made->lights[0] = (Light){.kind = LIGHT_DIRECTIONAL,
-                                  .space = LIGHT_EYE,
-                                  .direction = {0, 0, 1},
-                                  .diffuse = {0.9, 0.9, 0.9},
-                                  .specular = {0.9, 0.9, 0.9}};
+        made->lights[0] = viewers_light();
     scene->lights = made->lights;
     scene->light_count = file->light_count || file->own ? file->light_count : 1;
     scene->objects = made->objects;

@@ -187,6 +187,15 @@ static void set_material(Walk *walk, const struct aiMaterial *from, Object *obje
     object->back = *to;
 }
 
+/* All materials, and after them that of meshes without one. */
+static void make_materials(Walk *walk)
+{
+    const unsigned count = walk->scene->mNumMaterials;
+    walk->materials = memory_new((size_t)count + 1, sizeof *walk->materials);
+    for (unsigned i = 0; i <= count; i++)
+        set_material(walk, i < count ? walk->scene->mMaterials[i] : NULL, &walk->materials[i]);
+}
+
 static unsigned material_number(const Walk *walk, const struct aiMesh *part)
 {
     const unsigned count = walk->scene->mNumMaterials;
@@ -419,11 +428,7 @@ static bool collect(const struct aiScene *scene, ModelUp up, const Folder *folde
     walk.scale = walk.scale > 0 ? walk.scale : 1;
     for (unsigned i = 1; i < scene->mNumAnimations; i++)
         scene_file_note(file, NOTE_ANIMATION);
-    /* All materials, and after them that of meshes without one. */
-    const unsigned count = walk.scene->mNumMaterials;
-    walk.materials = memory_new((size_t)count + 1, sizeof *walk.materials);
-    for (unsigned i = 0; i <= count; i++)
-        set_material(&walk, i < count ? walk.scene->mMaterials[i] : NULL, &walk.materials[i]);
+    make_materials(&walk);
     const bool done = add_meshes(&walk) && visit(&walk, scene->mRootNode, -1, &world_from_file);
     free(walk.materials);
     return done;

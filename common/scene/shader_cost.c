@@ -278,6 +278,18 @@ static void send(Counter *counter, int target)
     counter->way.numbers = NULL;
 }
 
+/* Two ways: one if the condition is true, and one that is sent to an instruction if not. */
+static void split(Counter *counter, int condition, int target)
+{
+    const size_t size = (size_t)counter->code->register_count * sizeof(int);
+    const Block block = {.parent = counter->way.block, .condition = condition};
+    const Way on = {memory_copy(counter->way.numbers, size), block_new(counter, block), 0};
+    counter->way.block = block_new(counter, block);
+    counter->work += counter->code->register_count;
+    send(counter, target);
+    counter->way = on;
+}
+
 /* The present way and one that waited, which ends. */
 static void meet(Counter *counter, Way other)
 {
@@ -351,14 +363,7 @@ static int follow(Counter *counter, const GlslInstruction *at, int next)
     if (at->op == OP_JUMP_FALSE && !is_known(counter, way->numbers[at->a], &value)) {
         if (kind == GLSL_FOR || kind == GLSL_WHILE || kind == GLSL_DO)
             return -1;
-        /* Two ways: one if the condition is true, and one that is sent to an instruction if not. */
-        const size_t size = (size_t)counter->code->register_count * sizeof(int);
-        const Block block = {.parent = counter->way.block, .condition = way->numbers[at->a]};
-        const Way on = {memory_copy(counter->way.numbers, size), block_new(counter, block), 0};
-        counter->way.block = block_new(counter, block);
-        counter->work += counter->code->register_count;
-        send(counter, at->d);
-        counter->way = on;
+        split(counter, way->numbers[at->a], at->d);
     } else if (at->op == OP_JUMP || (at->op == OP_JUMP_FALSE && value == 0)) {
         if (at->d < next)
             return at->d;

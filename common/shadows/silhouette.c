@@ -1,8 +1,8 @@
 /*
  * Edges are found once for each mesh: vertices at the same place are welded, and by a hash the two
- * directions of an edge. For a volume each triangle then adds 1 or -1 to
- * the net of its three edges, by whether it faces the light; edges whose net is not zero are the
- * silhouette, and each gets as many sides. The time is linear in the triangles.
+ * directions of an edge. For a volume each triangle then adds 1 or -1 to the net of its three
+ * edges, by whether it faces the light; edges whose net is not zero are the silhouette, and each
+ * gets as many sides. The time is linear in the triangles.
  *
  * A triangle that the light lies on, at a vertex, say, does not keep it from anything, as in the
  * exact picture: floats do not know which way from the light such a vertex is.

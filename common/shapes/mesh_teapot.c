@@ -184,13 +184,9 @@ bool mesh_teapot(Mesh *mesh, double size, int divisions, Message *message)
     return mesh_teapot_until(mesh, size, divisions, NULL, message);
 }
 
-/* Seams and poles are bitwise equal, and no two parts touch: of each place the first vertex gets
- * all triangles that meet there, and the others its normal. */
-bool mesh_teapot_textbook(Mesh *mesh, double size, Message *message)
+/* The slip moves the third control point of the first row of the third patch. */
+static void slip(Mesh *mesh, double size)
 {
-    if (!mesh_teapot(mesh, size, 4, message))
-        return false;
-    /* The slip moves the third control point of the first row of the third patch. */
     for (int j = 0; j < 4; j++) {
         const Basis down = basis_at(j, 4);
         for (int i = 1; i < 4; i++) {
@@ -199,6 +195,15 @@ bool mesh_teapot_textbook(Mesh *mesh, double size, Message *message)
                 (float)(0.09 * size / 2 * down.value[0] * around.value[2]);
         }
     }
+}
+
+/* Seams and poles are bitwise equal, and no two parts touch: of each place the first vertex gets
+ * all triangles that meet there, and the others its normal. */
+bool mesh_teapot_textbook(Mesh *mesh, double size, Message *message)
+{
+    if (!mesh_teapot(mesh, size, 4, message))
+        return false;
+    slip(mesh, size);
     uint32_t *first = memory_new(mesh->vertex_count, sizeof *first);
     bool done = mesh_weld(mesh, false, first);
     for (size_t i = 0; i < mesh->index_count; i++)

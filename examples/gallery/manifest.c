@@ -45,6 +45,14 @@ bool manifest_possible(Message *message)
 }
 #endif
 
+static void hash_pixels(const Image *image, char text[MANIFEST_HASH_SIZE])
+{
+    char size[64];
+    const int length = snprintf(size, sizeof size, "%dx%d\n", image->width, image->height);
+    hash_text(size, (size_t)length, image->pixels, image_row_size(image) * (size_t)image->height,
+              text);
+}
+
 /* The two hashes of a picture, which stays open. */
 static bool describe(ManifestEntry *entry, const ImageFile *file, Picture *picture,
                      Message *message)
@@ -54,11 +62,7 @@ static bool describe(ManifestEntry *entry, const ImageFile *file, Picture *pictu
     hash_text(file->bytes, file->size, "", 0, entry->file);
     if (!picture_decode(picture, file, message))
         return false;
-    char size[64];
-    const int length =
-        snprintf(size, sizeof size, "%dx%d\n", picture->image.width, picture->image.height);
-    hash_text(size, (size_t)length, picture->image.pixels,
-              image_row_size(&picture->image) * (size_t)picture->image.height, entry->pixels);
+    hash_pixels(&picture->image, entry->pixels);
     return true;
 }
 

@@ -175,6 +175,20 @@ static ErrorWorker *open_worker(void)
     return worker;
 }
 
+/* What the mesh adds is not computing: against the mesh's exact picture only rounding is left. With
+ * samples, lighting within a pixel differs from that at its center. */
+static void assert_said_apart(const Case *of, const Options *options, const ErrorResult *result)
+{
+    const PictureError *error = &result->error;
+    const bool bytes = of->picture.image.type == IMAGE_BYTE;
+    if (options->cheap)
+        assert_int_equal(result->of_computing.pixels, 0);
+    else if (!options->canvas.samples && !(result->of_computing.maximum <= (bytes ? 0.51 : 0.1)))
+        fail_msg("%s: error of computing %.3f", of->name, result->of_computing.maximum);
+    assert_true(error->interior.pixels + error->edges.pixels <= error->all.pixels);
+    assert_true(fmax(error->interior.maximum, error->edges.maximum) <= error->all.maximum);
+}
+
 TEST(the_worker_finds_the_error_that_is_computed_here)
 {
     ErrorWorker *worker = open_worker();
@@ -194,17 +208,7 @@ TEST(the_worker_finds_the_error_that_is_computed_here)
             assert_same_sum(of->name, &result.error.all, &of->expected.all);
             assert_same_sum(of->name, &result.error.interior, &of->expected.interior);
             assert_same_sum(of->name, &result.error.edges, &of->expected.edges);
-            /* What the mesh adds is not computing: against the mesh's exact picture only rounding
-             * is left. With samples, lighting within a pixel differs from that at its center. */
-            const PictureError *error = &result.error;
-            const bool bytes = of->picture.image.type == IMAGE_BYTE;
-            if (WAYS[way].options.cheap)
-                assert_int_equal(result.of_computing.pixels, 0);
-            else if (!WAYS[way].options.canvas.samples &&
-                     !(result.of_computing.maximum <= (bytes ? 0.51 : 0.1)))
-                fail_msg("%s: error of computing %.3f", of->name, result.of_computing.maximum);
-            assert_true(error->interior.pixels + error->edges.pixels <= error->all.pixels);
-            assert_true(fmax(error->interior.maximum, error->edges.maximum) <= error->all.maximum);
+            assert_said_apart(of, &WAYS[way].options, &result);
             if (WAYS[way].options.width == WIDTH)
                 print_message("%-34s inside rms %6.3f, largest %7.2f; all rms %6.3f, largest "
                               "%7.2f; %4.0f ms\n",

@@ -55,6 +55,16 @@ static bool prints_as_itself(const GlslTree *tree)
     return equal;
 }
 
+static void ours(const char *text, GlslStage stage)
+{
+    GlslTree *tree = glsl_parse(text, stage, NULL);
+    if (tree->message_count)
+        printf("\t%d %s", tree->messages[0].place.line, tree->messages[0].text);
+    else
+        printf("\t%s", prints_as_itself(tree) ? "ok" : "differs");
+    glsl_tree_free(tree);
+}
+
 /* Mesa: "0:12(3): error: ...". */
 static void driver(const char *text, GlslStage stage)
 {
@@ -93,12 +103,7 @@ int main(int argc, char *argv[])
         char *text = read_all(path);
         const GlslStage stage = strstr(path, ".vert") ? GLSL_VERTEX : GLSL_FRAGMENT;
         printf("%s", path);
-        GlslTree *tree = glsl_parse(text, stage, NULL);
-        if (tree->message_count)
-            printf("\t%d %s", tree->messages[0].place.line, tree->messages[0].text);
-        else
-            printf("\t%s", prints_as_itself(tree) ? "ok" : "differs");
-        glsl_tree_free(tree);
+        ours(text, stage);
         if (alone)
             printf("\t\n");
         else

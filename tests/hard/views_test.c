@@ -194,6 +194,18 @@ TEST(a_fitted_near_plane_ends_depth_fighting)
 
 /* The world far away. */
 
+static void move(HardWorld *world, Vec3 by)
+{
+    Camera *camera = &world->scene.camera;
+    camera->eye = vec3_add(camera->eye, by);
+    camera->center = vec3_add(camera->center, by);
+    for (int i = 0; i < 2; i++) {
+        world->lights[i].position = vec3_add(world->lights[i].position, by);
+        world->objects[i].world_from_object =
+            mat4_product(mat4_translate(by), world->objects[i].world_from_object);
+    }
+}
+
 /* At this distance the last digit is 1/16. All coordinates of this scene are multiples of 1/4, so
  * nothing is lost, and the picture is the same to the last bit. */
 TEST(world_at_the_end_of_its_range_is_bit_identical)
@@ -206,15 +218,7 @@ TEST(world_at_the_end_of_its_range_is_bit_identical)
         static HardFrame here, there;
         moved = world;
         hard_world_settle(&moved);
-        const Vec3 by = {0x1p48, -0x1p49, 0x1p48};
-        Camera *camera = &moved.scene.camera;
-        camera->eye = vec3_add(camera->eye, by);
-        camera->center = vec3_add(camera->center, by);
-        for (int i = 0; i < 2; i++) {
-            moved.lights[i].position = vec3_add(moved.lights[i].position, by);
-            moved.objects[i].world_from_object =
-                mat4_product(mat4_translate(by), moved.objects[i].world_from_object);
-        }
+        move(&moved, (Vec3){0x1p48, -0x1p49, 0x1p48});
         check_exact("at the origin", &world, precision, &exact);
         hard_keep(&here);
         check_exact("3e14 away", &moved, precision, &exact);

@@ -63,6 +63,12 @@ static int to_file(const char *path)
     return saved;
 }
 
+static void to_terminal(int saved)
+{
+    dup2(saved, 1);
+    close(saved);
+}
+
 /* The tolerance is for values halfway between two integers, which doubles round either way. */
 static void is_nearest(unsigned char found, double value)
 {
@@ -93,8 +99,7 @@ FOLDER_TEST(y4m_is_bt601_to_the_nearest_number)
     const bool done = animation_open(&animation, &options, &message) &&
                       animation_add(animation, &picture, &message) &&
                       animation_close(animation, true, &message);
-    dup2(saved, 1);
-    close(saved);
+    to_terminal(saved);
     assert_string_equal(message.text, "");
     assert_true(done);
     FILE *file = fopen("a.y4m", "r");

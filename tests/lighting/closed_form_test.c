@@ -156,6 +156,14 @@ TEST(a_sphere_lit_by_the_viewer_looks_the_same_from_every_side)
 
 /* Diffuse light. */
 
+/* The diffuse color of a point of the plane z = 0. */
+static double diffuse_of(const Light *light, double diffuse, double x, double y)
+{
+    const Vec3 way = vec3_subtract(light->position, (Vec3){x, y, 0});
+    const double d = vec3_length(way);
+    return diffuse * fmax(way.z, 0) / d / (light->constant + light->linear * d);
+}
+
 TEST(diffuse_light_does_not_depend_on_the_viewer)
 {
     static const double distances[] = {1.5, 2, 2.5, 4};
@@ -172,11 +180,7 @@ TEST(diffuse_light_does_not_depend_on_the_viewer)
                 const double v = extent * (1 - (y + 0.5) / SIZE * 2);
                 if (fabs(u) > 0.95 || fabs(v) > 0.95)
                     continue;
-                /* The diffuse color of a point of the plane z = 0. */
-                const Vec3 way = vec3_subtract(world.lights[0].position, (Vec3){u, v, 0});
-                const double d = vec3_length(way);
-                const double expected = 0.3 * 0.6 * fmax(way.z, 0) / d /
-                                        (world.lights[0].constant + world.lights[0].linear * d);
+                const double expected = diffuse_of(&world.lights[0], 0.3 * 0.6, u, v);
                 /* Floats, and corners rounded to 1/256 of a pixel. */
                 assert_true(fabs((double)pixel(&picture, x, y)[0] - expected) < 1e-4);
                 compared++;

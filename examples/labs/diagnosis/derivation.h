@@ -28,8 +28,7 @@ typedef struct Found {
     double apart;
     int shared; /* of the submission's values */
     int other;  /* operations and names that the submission has more or less often */
-    bool
-        there; /* of the submission's changes: it changes the first wrong value, and no right one */
+    bool there; /* of the submission's changes: it changes the first wrong value, no right one */
 } Found;
 
 typedef struct Derivation {

@@ -390,6 +390,18 @@ static void set_value(GLint location, const Uniform *uniform)
     }
 }
 
+static void set_uniforms(GLuint program, const Values *values)
+{
+    GLint count = 0;
+    glGetProgramiv(program, GL_ACTIVE_UNIFORMS, &count);
+    for (GLint i = 0; i < count; i++) {
+        const Uniform uniform = uniform_at(program, i, values);
+        const GLint location = glGetUniformLocation(program, uniform.name);
+        if (uniform.value && location >= 0)
+            set_value(location, &uniform);
+    }
+}
+
 bool binding_draw(const Lab *lab, GLuint program, const MeshBuffer *mesh, const Drawn *drawn,
                   Message *message)
 {
@@ -399,14 +411,7 @@ bool binding_draw(const Lab *lab, GLuint program, const MeshBuffer *mesh, const 
         return false;
     attributes_of(lab, names);
     glUseProgram(program);
-    GLint count = 0;
-    glGetProgramiv(program, GL_ACTIVE_UNIFORMS, &count);
-    for (GLint i = 0; i < count; i++) {
-        const Uniform uniform = uniform_at(program, i, &values);
-        const GLint location = glGetUniformLocation(program, uniform.name);
-        if (uniform.value && location >= 0)
-            set_value(location, &uniform);
-    }
+    set_uniforms(program, &values);
     mesh_buffer_bind(mesh, glGetAttribLocation(program, names[POSITION]),
                      glGetAttribLocation(program, names[NORMAL]));
     const GLint color = glGetAttribLocation(program, names[COLOR]);

@@ -124,6 +124,16 @@ static bool check_restricted(const Reader *reader, const char *p, bool define)
     return true;
 }
 
+static bool read_define(Reader *reader, const char *rest, bool dependent)
+{
+    if (!dependent && !reader->restricted[reader->depth])
+        return true;
+    if (reader->name_count == MAX_NAMES)
+        return message_set(reader->message, "has too many macros that depend on GL_ES");
+    next_token(rest, reader->names[reader->name_count++]);
+    return !reader->restricted[reader->depth] || check_restricted(reader, rest, true);
+}
+
 static bool read_line(Reader *reader, const char *line)
 {
     char word[NAME_SIZE] = "";
@@ -146,12 +156,7 @@ static bool read_line(Reader *reader, const char *line)
     } else if (directive && strcmp(word, "endif") == 0) {
         reader->depth -= reader->depth > 0;
     } else if (directive && strcmp(word, "define") == 0) {
-        if (!dependent && !reader->restricted[reader->depth])
-            return true;
-        if (reader->name_count == MAX_NAMES)
-            return message_set(reader->message, "has too many macros that depend on GL_ES");
-        next_token(rest, reader->names[reader->name_count++]);
-        return !reader->restricted[reader->depth] || check_restricted(reader, rest, true);
+        return read_define(reader, rest, dependent);
     } else if (!directive || strcmp(word, "else") != 0) {
         return !reader->restricted[reader->depth] || check_restricted(reader, line, false);
     }

@@ -124,6 +124,16 @@ void verdict_parts(const Verdict *verdict, const char *before, const char *after
     }
 }
 
+static void print_probes(const Verdict *verdict, FILE *file)
+{
+    for (int i = 0; i < verdict->probe_count; i++) {
+        const VerdictProbe *probe = &verdict->probes[i];
+        fprintf(file, "  scene %s (%s) %3dx%-3d at %6.3f s: largest error %6.2f steps, %s\n",
+                probe->name, probe->known ? "known" : "seed", probe->width, probe->height,
+                probe->seconds, probe->maximum, probe->passed ? "right" : "wrong");
+    }
+}
+
 void verdict_print(const Verdict *verdict, const Lab *lab, const char *pictures, FILE *file)
 {
     const int color = verdict->kind == VERDICT_RIGHT ? MESSAGE_GREEN
@@ -140,12 +150,7 @@ void verdict_print(const Verdict *verdict, const Lab *lab, const char *pictures,
     for (int i = 0; i < verdict->symptom_count; i++)
         fprintf(file, "  - %s\n", verdict->symptoms[i]);
     verdict_parts(verdict, "  ", "\n", file);
-    for (int i = 0; i < verdict->probe_count; i++) {
-        const VerdictProbe *probe = &verdict->probes[i];
-        fprintf(file, "  scene %s (%s) %3dx%-3d at %6.3f s: largest error %6.2f steps, %s\n",
-                probe->name, probe->known ? "known" : "seed", probe->width, probe->height,
-                probe->seconds, probe->maximum, probe->passed ? "right" : "wrong");
-    }
+    print_probes(verdict, file);
     if (verdict->cost.known)
         fprintf(file, "cost: error %.2f steps, %.2f of the time of the chapter's own program\n",
                 verdict->cost.error, verdict->cost.time_ratio);

@@ -83,6 +83,17 @@ static int by_error(const void *first, const void *second)
     return memcmp(a->row->quality.choice, b->row->quality.choice, sizeof a->row->quality.choice);
 }
 
+/* Keeps rows that are faster than all more exact ones. It suffices to compare with the last one
+ * kept, the fastest so far. */
+static int take_faster(const Entry *entries, int count, const ResultRow **rows)
+{
+    int taken = 0;
+    for (int i = 0; i < count; i++)
+        if (taken == 0 || row_faster(entries[i].row, rows[taken - 1]))
+            rows[taken++] = entries[i].row;
+    return taken;
+}
+
 /* Reverses the order, fastest first, and drops rows that a faster one equals in exactness. */
 static int take_more_exact(const ResultRow **rows, int count, ErrorKind kind)
 {
@@ -135,6 +146,19 @@ static void prefer_usual(Front *front, const Entry *entries, int count, ErrorKin
     }
 }
 
+/* Selects and sorts the rows with known time and error; returns their number. */
+static int select_entries(Entry *entries, const ResultRow *const *rows, int count, ErrorKind kind)
+{
+    int selected = 0;
+    for (int i = 0; i < count; i++) {
+        const double error = row_error(rows[i], kind);
+        if (isfinite(error) && isfinite(rows[i]->time))
+            entries[selected++] = (Entry){rows[i], error, quality_unusual(&rows[i]->quality)};
+    }
+    qsort(entries, (size_t)selected, sizeof *entries, by_error);
+    return selected;
+}
+
 void front_find(Front *front, const Results *results, const char *scene, ErrorKind kind)
 {
     int count;
@@ -143,20 +167,8 @@ void front_find(Front *front, const Results *results, const char *scene, ErrorKi
     *front = (Front){.rows = memory_new((size_t)count, sizeof *front->rows),
                      .tied = memory_new((size_t)count, sizeof *front->tied),
                      .busy = front_busy(results, scene)};
-    /* Selects and sorts the rows with known time and error; returns their number. */
-    int selected = 0;
-    for (int i = 0; i < count; i++) {
-        const double error = row_error(rows[i], kind);
-        if (isfinite(error) && isfinite(rows[i]->time))
-            entries[selected++] = (Entry){rows[i], error, quality_unusual(&rows[i]->quality)};
-    }
-    qsort(entries, (size_t)selected, sizeof *entries, by_error);
-    count = selected;
-    /* Keeps rows that are faster than all more exact ones. It suffices to compare with the last one
-     * kept, the fastest so far. */
-    for (int i = 0; i < count; i++)
-        if (front->count == 0 || row_faster(entries[i].row, front->rows[front->count - 1]))
-            front->rows[front->count++] = entries[i].row;
+    count = select_entries(entries, rows, count, kind);
+    front->count = take_faster(entries, count, front->rows);
     front->count = take_more_exact(front->rows, front->count, kind);
     prefer_usual(front, entries, count, kind);
     /* From the most exact on, each whose median is faster than all before it. */
