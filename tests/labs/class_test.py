@@ -665,7 +665,7 @@ class Results(Class):
         self.assertRegex(lines[0], "slow: timeout: .*the earlier, better result stays")
         self.assertEqual(self.table()["slow"], before)
 
-    @unittest.skipIf("ASAN_OPTIONS" in os.environ, "a sanitizer takes terabytes of addresses")
+    @unittest.skipIf(base.SANITIZED, "a sanitizer takes terabytes of addresses")
     def test_what_a_machine_cannot_judge_is_its_failure(self):
         """And judged by the same command where it can."""
         for name in "a", "b":

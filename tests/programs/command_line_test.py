@@ -35,7 +35,8 @@ for number in (signal.SIGINT, signal.SIGHUP):
         signal.signal(number, signal.SIG_DFL)
 
 # Hundreds of processes: without the leak checker. Leaks show in the tests in C.
-if "ASAN_OPTIONS" in os.environ:
+SANITIZED = "ASAN_OPTIONS" in os.environ  # as .ci/run sets it
+if SANITIZED:
     os.environ["ASAN_OPTIONS"] += ":detect_leaks=0"
 
 EXAMPLES, SOURCE = (os.path.abspath(path) for path in sys.argv[1:3])
@@ -59,17 +60,11 @@ PATIENCE = 600
 LONG = bool(os.environ.get("LIGHTING_TEST_LONG"))
 
 
-def sanitized():
-    """Whether the programs are built with AddressSanitizer, which has a heap of its own and needs /proc."""
-    with open(os.path.join(EXAMPLES, "LightedCube"), "rb") as program:
-        return b"__asan_init" in program.read()
-
-
 def step(number):
     """Of many similar cases: the short form takes every `number`-th, the long one (tests/run --long,
     which sets LIGHTING_TEST_LONG) all; AddressSanitizer, which needs code rather than cases, a quarter
     of the short one's."""
-    return 1 if LONG else 4 * number if "ASAN_OPTIONS" in os.environ else number
+    return 1 if LONG else 4 * number if SANITIZED else number
 
 
 def seed():
@@ -570,7 +565,7 @@ class Options(Case):
             1: r"(?s)libegl1.*libosmesa6.*cannot draw yet\.\n$"}[result.returncode])
 
 
-    @unittest.skipIf("ASAN_OPTIONS" in os.environ, "a sanitizer takes terabytes of addresses")
+    @unittest.skipIf(SANITIZED, "a sanitizer takes terabytes of addresses")
     def test_too_little_memory_for_a_driver_is_said_before_it_is_loaded(self):
         """It would crash, or say so itself in many lines."""
         for megabytes in 64, 400:
@@ -994,7 +989,7 @@ class Outputs(Case):
         self.good(*SMALL, "-o", "b.png", program=self.path("linked"))
         self.assertEqual(self.read("a.png"), self.read("b.png"))
 
-    @unittest.skipIf(sanitized(), "a sanitizer needs /proc")
+    @unittest.skipIf(SANITIZED, "a sanitizer needs /proc")
     def test_programs_run_without_proc(self):
         """As in a plain chroot: they find their plugins and shaders, and start again."""
         hide = ["unshare", "--mount", *(["--map-root-user"] if os.getuid() else []), "sh", "-c",

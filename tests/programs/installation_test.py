@@ -45,7 +45,7 @@ class Installation(unittest.TestCase):
             elif os.path.exists(LOG):
                 os.remove(LOG)
 
-    @unittest.skipIf("ASAN_OPTIONS" in os.environ, "a sanitizer reports by the paths of the sources")
+    @unittest.skipIf(base.SANITIZED, "a sanitizer reports by the paths of the sources")
     def test_no_file_says_where_it_was_built(self):
         """As the bytes of a file else depend on it."""
         for path in files(self.root):
@@ -69,7 +69,7 @@ class Installation(unittest.TestCase):
         self.assertEqual([path for path in files(root) if os.path.lexists(path)], [])
         self.assertFalse(os.path.exists(root), "empty folders")
 
-    @unittest.skipIf("ASAN_OPTIONS" in os.environ, "a sanitized library needs a sanitized program")
+    @unittest.skipIf(base.SANITIZED, "a sanitized library needs a sanitized program")
     def test_another_project_uses_the_library(self):
         """As examples/guide/library.md shows it, and with our warnings; the picture is the program's."""
         with open(os.path.join(base.SOURCE, "examples/guide/library.md")) as file:
