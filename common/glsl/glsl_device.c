@@ -22,7 +22,7 @@ static const GlslArithmetic NARROW = {.of = ALL(FLOAT, FLOAT), .mesa = true}; /*
 static const GlslArithmetic SOFTPIPE = {.of = ALL(FLOAT, FLOAT)};
 static const GlslArithmetic HALVED = {.of = ALL(FLOAT, HALF)};
 static const GlslArithmetic WHOLE = {.of = ALL(KEPT, KEPT)};
-static const GlslArithmetic NVIDIA = {.of = ALL(FLOAT, HALF_CUT), .cut = 12};
+static const GlslArithmetic NVIDIA = {.of = ALL(FLOAT, HALF_CUT), .color_bits = 12};
 
 const GlslDevice GLSL_DEVICES[] = {
     {"llvmpipe", &GLSL_LLVMPIPE}, {"llvmpipe-128", &NARROW}, {"softpipe", &SOFTPIPE},
@@ -64,8 +64,8 @@ bool glsl_arithmetic_read(const char *text, GlslArithmetic *arithmetic)
                       read_numbers(text, "mediump=", &arithmetic->of[GLSL_MEDIUMP]);
     arithmetic->of[GLSL_LOWP] = arithmetic->of[GLSL_MEDIUMP];
     const char *bytes = strstr(text, BYTES);
-    arithmetic->cut = bytes ? atoi(bytes + strlen(BYTES)) : 0;
-    return read && arithmetic->cut >= 0 && arithmetic->cut <= 24;
+    arithmetic->color_bits = bytes ? atoi(bytes + strlen(BYTES)) : 0;
+    return read && arithmetic->color_bits >= 0 && arithmetic->color_bits <= 24;
 }
 
 void glsl_arithmetic_print(const GlslArithmetic *arithmetic, char *text, size_t size)
@@ -78,6 +78,6 @@ void glsl_arithmetic_print(const GlslArithmetic *arithmetic, char *text, size_t 
                  numbers->most, numbers->denormals ? KEPT_TOO : "", numbers->cut ? CUT : "");
         used = strlen(text);
     }
-    if (arithmetic->cut)
-        snprintf(text + used, size - used, "%s%d", BYTES, arithmetic->cut);
+    if (arithmetic->color_bits)
+        snprintf(text + used, size - used, "%s%d", BYTES, arithmetic->color_bits);
 }

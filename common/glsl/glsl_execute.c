@@ -140,8 +140,8 @@ static float mesa_log2(const GlslArithmetic *arithmetic, float x)
     return add_product(arithmetic, y, series, (float)(exponent - 1));
 }
 
-/* A function's correct result as a device has it that cuts, or as it is. */
-static double function_of(const GlslArithmetic *arithmetic, int precision, double x)
+/* A function's correct result, cut if the device cuts it. */
+static double as_cut(const GlslArithmetic *arithmetic, int precision, double x)
 {
     const GlslNumbers *numbers = &arithmetic->of[precision];
     if (!numbers->cut || x == 0 || !isfinite(x))
@@ -150,16 +150,36 @@ static double function_of(const GlslArithmetic *arithmetic, int precision, doubl
     return round_to(arithmetic, precision, trunc(x / unit) * unit);
 }
 
+static double power_of_2(const GlslArithmetic *arithmetic, int precision, double x)
+{
+    return arithmetic->mesa ? mesa_exp2(arithmetic, (float)x)
+                            : as_cut(arithmetic, precision, exp2(x));
+}
+
+static double logarithm(const GlslArithmetic *arithmetic, int precision, double x)
+{
+    return arithmetic->mesa ? mesa_log2(arithmetic, (float)x)
+                            : as_cut(arithmetic, precision, log2(x));
+}
+
+/* Mesa, and what cuts, makes it of the other two; of others it is taken as correct. */
 static double power(const GlslArithmetic *arithmetic, int precision, double x, double y)
 {
-    if (arithmetic->of[precision].cut && x > 0) {
-        const double log = function_of(arithmetic, precision, log2(x));
-        return function_of(arithmetic, precision, exp2(round_to(arithmetic, precision, log * y)));
-    }
-    if (!arithmetic->mesa)
+    if (!arithmetic->mesa && !(arithmetic->of[precision].cut && x > 0))
         return pow(x, y);
-    const double log = round_to(arithmetic, precision, mesa_log2(arithmetic, (float)x));
-    return mesa_exp2(arithmetic, (float)round_to(arithmetic, precision, log * y));
+    const double log = round_to(arithmetic, precision, logarithm(arithmetic, precision, x));
+    return power_of_2(arithmetic, precision, round_to(arithmetic, precision, log * y));
+}
+
+static double reciprocal_root(const GlslArithmetic *arithmetic, int precision, double x)
+{
+    return arithmetic->of[precision].cut ? as_cut(arithmetic, precision, 1 / sqrt(x))
+                                         : 1 / round_to(arithmetic, precision, sqrt(x));
+}
+
+static double quotient(const GlslArithmetic *arithmetic, int precision, double a, double b)
+{
+    return arithmetic->of[precision].cut ? a * as_cut(arithmetic, precision, 1 / b) : a / b;
 }
 
 /* What is undefined of a function, 0: nothing. */
@@ -183,7 +203,7 @@ static int undefined(int op, double a, double b)
 static double function(const GlslArithmetic *arithmetic, const GlslInstruction *at, double a,
                        double b)
 {
-    const bool mesa = arithmetic->mesa, cut = arithmetic->of[at->precision].cut;
+    const int precision = at->precision;
     /* clang-format off */
     switch (at->op) {
     case OP_SIN: return sin(a);
@@ -192,12 +212,12 @@ static double function(const GlslArithmetic *arithmetic, const GlslInstruction *
     case OP_ACOS: return acos(a);
     case OP_ATAN: return atan(a);
     case OP_ATAN2: return atan2(a, b);
-    case OP_POW: return power(arithmetic, at->precision, a, b);
-    case OP_EXP2: return mesa ? mesa_exp2(arithmetic, (float)a) : function_of(arithmetic, at->precision, exp2(a));
-    case OP_LOG2: return mesa ? mesa_log2(arithmetic, (float)a) : function_of(arithmetic, at->precision, log2(a));
-    case OP_SQRT: return function_of(arithmetic, at->precision, sqrt(a));
-    case OP_INVERSE_SQRT: return cut ? function_of(arithmetic, at->precision, 1 / sqrt(a)) : 1 / round_to(arithmetic, at->precision, sqrt(a));
-    case OP_DIVIDE: return cut ? a * function_of(arithmetic, at->precision, 1 / b) : a / b;
+    case OP_POW: return power(arithmetic, precision, a, b);
+    case OP_EXP2: return power_of_2(arithmetic, precision, a);
+    case OP_LOG2: return logarithm(arithmetic, precision, a);
+    case OP_SQRT: return as_cut(arithmetic, precision, sqrt(a));
+    case OP_INVERSE_SQRT: return reciprocal_root(arithmetic, precision, a);
+    case OP_DIVIDE: return quotient(arithmetic, precision, a, b);
     default: return b == 0 ? 0 : trunc(a / b); /* of ints */
     }
     /* clang-format on */

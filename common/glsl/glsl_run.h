@@ -59,9 +59,9 @@ typedef struct GlslNumbers {
  */
 typedef struct GlslArithmetic {
     GlslNumbers of[GLSL_HIGHP + 1];
-    bool mesa;  /* exp2, log2 and what is made of them by gallivm's polynomials */
-    bool fused; /* in which products are added with one rounding */
-    int cut;    /* bits that a colour is cut to before it becomes a byte; 0: none is lost */
+    bool mesa;      /* exp2, log2 and what is made of them by gallivm's polynomials */
+    bool fused;     /* in which products are added with one rounding */
+    int color_bits; /* bits that a colour is cut to before it becomes a byte; 0: none is lost */
 } GlslArithmetic;
 extern const GlslArithmetic GLSL_EXACT, GLSL_LLVMPIPE;
 
@@ -73,7 +73,7 @@ extern const GlslDevice GLSL_DEVICES[]; /* the last has no name */
 
 /* A device's name, or any text that holds "highp=24,-126,127;mediump=11,-14,15,kept": bits, least
  * and largest exponent, "kept" with denormals, "cut" with functions that are; "llvmpipe" in it:
- * with Mesa's functions; "bytes=12": `cut`. False: neither. */
+ * with Mesa's functions; "bytes=12": `color_bits`. False: neither. */
 bool glsl_arithmetic_read(const char *text, GlslArithmetic *arithmetic);
 void glsl_arithmetic_print(const GlslArithmetic *arithmetic, char *text, size_t size);
 

@@ -358,8 +358,11 @@ static bool check_draws(const Capture *capture, Message *message)
 bool show_open(Show *show, const Capture *capture, const GlslArithmetic *driver, const char *what,
                const int size[2], Message *message)
 {
-    *show = (Show){
-        .capture = capture, .what = what, .width = size[0], .height = size[1], .cut = driver->cut};
+    *show = (Show){.capture = capture,
+                   .what = what,
+                   .width = size[0],
+                   .height = size[1],
+                   .color_bits = driver->color_bits};
     show->kind = kind_of(what);
     const char *name = show->kind == SHOW_VALUE                                     ? what
                        : show->kind == SHOW_ERROR && strlen(what) > strlen("error") ? what + 6

@@ -36,7 +36,7 @@ typedef struct Show {
     ShowKind kind;
     const char *what;
     int width, height;
-    int cut;           /* as the driver has it (GlslArithmetic) */
+    int color_bits;    /* as the driver has it (GlslArithmetic) */
     ShowPixel *pixels; /* row 0 is the picture's top */
     bool unknown; /* why it failed: no shader has the value; the message lists those there are */
 } Show;

@@ -256,10 +256,10 @@ static void paint_blame(const Show *show, Image *picture, FILE *legend)
 }
 
 /* NVIDIA cuts a colour to 12 bits, and rounds the half of a step down. */
-static double byte_of(double channel, int cut)
+static double byte_of(double channel, int bits)
 {
-    return cut ? ceil(origin_step(ldexp(floor(ldexp(channel, cut)), -cut)) - 0.5)
-               : rint(origin_step(channel));
+    return bits ? ceil(origin_step(ldexp(floor(ldexp(channel, bits)), -bits)) - 0.5)
+                : rint(origin_step(channel));
 }
 
 /* As a framebuffer of bytes keeps them, over the background. */
@@ -271,7 +271,7 @@ static void paint_colors(const Show *show, Image *picture)
         for (int k = 0; k < 3; k++)
             bytes[k] = (unsigned char)byte_of(
                 (double)(pixel->count ? pixel->values[k] : show->capture->clear_color[k]),
-                show->cut);
+                show->color_bits);
         bytes[3] = 255;
     }
 }

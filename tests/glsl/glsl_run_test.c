@@ -251,7 +251,7 @@ TEST(a_devices_numbers_are_read_as_they_are_printed)
         GlslArithmetic read;
         char printed[128];
         assert_true(glsl_arithmetic_read(texts[i], &read));
-        assert_int_equal(read.cut, i ? 12 : 0);
+        assert_int_equal(read.color_bits, i ? 12 : 0);
         glsl_arithmetic_print(&read, printed, sizeof printed);
         assert_string_equal(printed, texts[i]);
     }

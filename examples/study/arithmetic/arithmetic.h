@@ -65,7 +65,7 @@ typedef struct Raster {
      */
     long edge_pixels, edge_twice, edge_missed;
     double bytes;         /* the largest error of rounding to 8 bits, in steps */
-    int cut;              /* bits that a colour is cut to before that; 0: none is lost */
+    int color_bits;       /* bits that a colour is cut to before that; 0: none is lost */
     int subpixel_bits;    /* of positions: of a pixel's width 2^-bits is resolved; at most
                              RASTER_SUBPIXELS */
     int claimed_subpixel; /* GL_SUBPIXEL_BITS */

@@ -247,7 +247,7 @@ static bool are_cut(const Arithmetic *arithmetic)
 static void device_text(const Arithmetics *found, char *text, size_t size)
 {
     static const int precisions[] = {[METER_HIGHP] = GLSL_HIGHP, [METER_MEDIUMP] = GLSL_MEDIUMP};
-    GlslArithmetic arithmetic = {.cut = found->raster.cut};
+    GlslArithmetic arithmetic = {.color_bits = found->raster.color_bits};
     for (int i = METER_HIGHP; i <= METER_MEDIUMP; i++) {
         const Format *format = &found->of[SHADER_FRAGMENT][i].format;
         arithmetic.of[precisions[i]] =

@@ -244,8 +244,8 @@ static bool bytes(const Meter *meter, Raster *raster, Message *message)
             below = fmax(below, -error);
         }
         raster->bytes = fmax(above, below);
-        /* Cut, it is up to 255 / 2^cut steps too small, and never too large. */
-        raster->cut =
+        /* Cut, it is up to 255 / 2^color_bits steps too small, and never too large. */
+        raster->color_bits =
             below - 0.5 > 0.01 && above < 0.501 ? (int)lrint(log2(255 / (below - 0.5))) : 0;
         canvas_close(&byte_meter.canvas);
     }
