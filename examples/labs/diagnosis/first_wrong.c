@@ -4,7 +4,6 @@
 
 #include "base/memory.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,55 +26,82 @@ static void put_place(const Derivation *all, int point, char text[100])
                  (int)(setting->height * (1 - place[1]) / 2));
 }
 
+static const char *name_of(PointShader *const pair[2], const Values *values, int number)
+{
+    return pair[values->items[number].stage]->tree->symbols[values->items[number].symbol].name;
+}
+
+/* What a submission and a right program assign on their way. */
+typedef struct Ways {
+    PointShader *own_pair[2], *pair[2];
+    Values own, right;
+} Ways;
+
+static bool is_same_variable(const Ways *ways, int number)
+{
+    return ways->own.items[number].stage == ways->right.items[number].stage &&
+           strcmp(name_of(ways->own_pair, &ways->own, number),
+                  name_of(ways->pair, &ways->right, number)) == 0;
+}
+
+/* The first value that differs; -1: none. Where one goes on elsewhere than the other only the
+ * results are left, which are the last. */
+static int first_apart(Ways *ways)
+{
+    const int last = ways->own.count - 1, right_last = ways->right.count - 1;
+    int i = 0;
+    for (; i <= last && i <= right_last && is_same_variable(ways, i); i++)
+        if (values_differ(&ways->own, &ways->right, i))
+            return i;
+    if (i >= last || i > right_last)
+        return -1;
+    ways->right.items[last] = ways->right.items[right_last];
+    return is_same_variable(ways, last) && values_differ(&ways->own, &ways->right, last) ? last
+                                                                                         : -1;
+}
+
+/* Says it; returns its name. */
+static const char *tell(const Derivation *all, const Ways *ways, int number, Verdict *verdict)
+{
+    const char *name = name_of(ways->own_pair, &ways->own, number);
+    const int size = ways->own.items[number].size, node = ways->own.items[number].node;
+    char place[VERDICT_SENTENCE_SIZE], where[100] = "", is[80], should[80];
+    put_place(all, all->order[0], where);
+    put_numbers(ways->own.items[number].numbers, size, is);
+    put_numbers(ways->right.items[number].numbers, size, should);
+    derivation_place(all, ways->own.items[number].stage, node, place, sizeof place);
+    verdict_add_symptom(verdict, "Wrong first, where it is worst%s: %s is %s; right is %s. See %s.",
+                        where, name, is, should, place);
+    return name;
+}
+
 /* Two changes of one stage are both in the second's text. */
 void first_wrong_find(Derivation *all, Verdict *verdict, FirstWrong *first)
 {
     const Found *changes[2] = {&all->mending, all->mended_twice ? &all->second : NULL};
     PointShader opened[2] = {{.setting = -1}, {.setting = -1}};
-    PointShader *pair[2] = {&all->own[0], &all->own[1]};
-    Values *own = memory_new(2, sizeof *own), *right = own + 1;
+    Ways *ways = memory_new(1, sizeof *ways);
     const char *text = NULL;
-    bool other = false;
+    for (int i = 0; i < 2; i++)
+        ways->pair[i] = ways->own_pair[i] = &all->own[i];
     for (int i = 0; i < 2 && changes[i]; i++) {
         all->stage = changes[i]->stage;
         if (mend_open(all, changes[i]->text, true, &opened[i]))
-            pair[all->stage] = &opened[i];
+            ways->pair[all->stage] = &opened[i];
         text = changes[i]->text;
     }
-    values_trace(&all->points, &all->own[0], &all->own[1], all->order[0], own);
-    values_trace(&all->points, pair[0], pair[1], all->order[0], right);
-    for (int i = 0; i < own->count && i < right->count && !other; i++) {
-        const GlslStage stage = own->items[i].stage;
-        const char *name = all->own[stage].tree->symbols[own->items[i].symbol].name;
-        const int size = own->items[i].size;
-        const PointShader *mended = pair[stage];
-        char place[VERDICT_SENTENCE_SIZE], where[100] = "", is[80], should[80];
-        /* It went on elsewhere: the result is left, which is the last. */
-        if (strcmp(name, mended->tree->symbols[right->items[i].symbol].name) != 0) {
-            const int last = own->count - 1;
-            right->items[last] = right->items[right->count - 1];
-            right->count = i < last ? own->count : 0;
-            i = i < last ? last - 1 : i;
-            continue;
-        }
-        other = values_differ(own, right, i);
-        if (!other)
-            continue;
-        put_place(all, all->order[0], where);
-        put_numbers(own->items[i].numbers, size, is);
-        put_numbers(right->items[i].numbers, size, should);
-        derivation_place(all, stage, own->items[i].node, place, sizeof place);
-        verdict_add_symptom(verdict,
-                            "Wrong first, where it is worst%s: %s is %s; right is %s. See %s.",
-                            where, name, is, should, place);
-        /* A colour is seen anyway; and where two shaders change, no single one is right. */
-        if (strncmp(name, "gl_", 3) == 0 || (changes[1] && changes[0]->stage != changes[1]->stage))
-            continue;
+    values_trace(&all->points, ways->own_pair[0], ways->own_pair[1], all->order[0], &ways->own);
+    values_trace(&all->points, ways->pair[0], ways->pair[1], all->order[0], &ways->right);
+    const int found = first_apart(ways);
+    const char *name = found >= 0 ? tell(all, ways, found, verdict) : NULL;
+    /* A colour is seen anyway; and where two shaders change, no single one is right. */
+    if (name && strncmp(name, "gl_", 3) != 0 &&
+        !(changes[1] && changes[0]->stage != changes[1]->stage)) {
         *first = (FirstWrong){.stage = (int)all->stage,
                               .right = right_declare(all->undeclared[all->stage], text)};
         snprintf(first->name, sizeof first->name, "%s", name);
     }
     point_shader_close(&opened[0]);
     point_shader_close(&opened[1]);
-    free(own);
+    free(ways);
 }
