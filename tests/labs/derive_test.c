@@ -158,6 +158,8 @@ static const struct {
      "outside the braces of if (!front): color = u_BackColor"},
     {9, 1, "u_AmbientLight + u_LightColor * nDotL", "max(u_AmbientLight, u_LightColor * nDotL)",
      "the larger, not the sum: u_AmbientLight, u_LightColor * nDotL"},
+    {6, 1, "reflect(-lightDirection", "reflect(lightDirection", "sign of lightDirection reversed"},
+    {5, 1, "normalize(v_Normal)", "v_Normal", "not normalized: v_Normal"},
     {5, 0, "vec3(u_ModelMatrix * a_Position)", "gl_Position.xyz",
      "gl_Position.xyz for the point in world space"},
     {1, 0, "normalize(vec3(u_NormalMatrix * vec4(a_Normal.xyz, 0.0)))",

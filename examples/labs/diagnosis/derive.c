@@ -288,7 +288,7 @@ static void find_place(Derivation *all, const Found *found)
         for (int i = 0; i < values[0].count && !all->place_node; i++) {
             const int node = values[0].items[i].node;
             all->place_stage = values[0].items[i].stage;
-            if (is_wrong_at(values, all->place_stage, node) &&
+            if (values_is_wrong(&values[0], i, &values[2], &values[1]) &&
                 is_wrong_at(values + 3, all->place_stage, node))
                 all->place_node = node;
         }
