@@ -365,7 +365,7 @@ class Holes(Labs):
             "wc1": "no bias: place.z",
             "wa4": "not divided by the map's size: ",
             "wa6": "sun() on the ambient light, too",
-            "wa7": "not asked: what is beside the map, by depthOf(",
+            "wa7": "not asked: what is beside the map",
             "wb3": "arguments of step swapped",
             "wb4": "not mapped to 0 to 1: vShadow.z / vShadow.w",
             "wc4": "one channel of the depth: texture2D(u_ShadowMap, place).r",

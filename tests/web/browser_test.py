@@ -970,11 +970,15 @@ def main():
     assert {type(test).__name__ for suite in tests for test in suite} == set(CLASSES)
     # Each class has a browser of its own, and waits for it.
     with multiprocessing.get_context("fork").Pool(os.cpu_count()) as pool:
-        passed = True
+        failed = []
         for said, right in pool.imap_unordered(run, CLASSES):
             print(said, end="", file=sys.stderr, flush=True)
-            passed &= right
-    return not passed
+            if not right:
+                failed.append(said)
+    # Again at the end: of a test that fails meson shows the last hundred lines.
+    for said in failed:
+        print(said[said.find("=" * 70):], end="", file=sys.stderr)
+    return bool(failed)
 
 
 if __name__ == "__main__":
