@@ -4,6 +4,7 @@ const Book = (() => {
     const TURN = 12; /* seconds of a turn at 30 degrees per second */
     const SETTLE = 400; /* milliseconds before a plot's point follows what is being dragged */
     const FRAMES = 15; /* of which the median time counts */
+    const SOON = "100px"; /* from being in sight */
     const {element} = Controls;
     const book = {engine: null, compiled: null, programs: new Map(), figures: [], opened: "", playing: null, last: 0, scheduled: false};
 
@@ -24,7 +25,6 @@ const Book = (() => {
         constructor(where) {
             this.where = where;
             this.canvas = where.querySelector("canvas");
-            this.image = where.querySelector("img");
             this.told = where.querySelector(".told");
             this.base = read(where.dataset.words);
             this.controls = new Map();
@@ -149,13 +149,13 @@ const Book = (() => {
             this.drawn = this.key();
             if (message) {
                 this.told.textContent = message;
-                document.body.classList.toggle("still", !book.figures.some(({picture}) => picture));
+                if (!book.figures.some(({picture}) => picture))
+                    stand();
                 return;
             }
             this.picture = book.engine.picture();
             Controls.paint(this.canvas, this.picture);
-            this.canvas.parentNode.hidden = false;
-            this.image.hidden = true;
+            this.canvas.parentNode.classList.remove("loading");
             this.show();
             if (book.playing !== this)
                 this.point.renew();
@@ -299,12 +299,28 @@ const Book = (() => {
         return canvas;
     }
 
+    const load = image => { image.src ||= image.dataset.src; };
+
+    /* Still pictures come when they are in sight. */
+    function watchPictures() {
+        const watch = new IntersectionObserver(entries => entries.filter(({isIntersecting}) => isIntersecting).forEach(({target}) => load(target)),
+                                               {rootMargin: SOON});
+        document.querySelectorAll("[data-src]").forEach(image => watch.observe(image));
+    }
+
+    /* The figures are the pictures that stand there. */
+    function stand() {
+        document.body.classList.add("still");
+        document.querySelectorAll("[data-src]").forEach(image => { image.hidden = false; });
+    }
+
     function listenToPrinting() {
         let closed = [];
         window.addEventListener("beforeprint", () => {
             book.printing = true;
             closed = [...document.querySelectorAll(".expect:not([open])")];
             closed.forEach(question => { question.open = true; });
+            document.querySelectorAll("[data-src]").forEach(load);
             document.querySelectorAll(".drawn").forEach(image => { image.loading = "eager"; });
         });
         window.addEventListener("afterprint", () => {
@@ -313,30 +329,51 @@ const Book = (() => {
         });
     }
 
+    /* A figure that is drawn is in sight, or the reader reads on. Until then the page is complete without what draws. */
+    function reached(figures) {
+        return new Promise(resolve => {
+            const watch = new IntersectionObserver(entries => {
+                if (entries.some(({isIntersecting}) => isIntersecting))
+                    resolve();
+                else
+                    document.body.dataset.ready = "yes";
+            }, {rootMargin: SOON});
+            figures.forEach(figure => watch.observe(figure));
+            window.addEventListener("scroll", resolve, {once: true});
+        });
+    }
+
     async function open() {
+        const drawn = [...document.querySelectorAll("figure.live, figure.formula")];
         listenToPrinting();
+        watchPictures();
+        if (!drawn.length) {
+            document.body.dataset.ready = "yes";
+            return;
+        }
+        await reached(drawn);
+        await loadScript("lighting.js");
         book.compiled = await compileLighting();
         book.engine = await Engine.open(book.compiled, newCanvas());
         for (const program of book.engine.json("programs"))
             book.programs.set(program.name, program);
-        book.figures = [...document.querySelectorAll("figure.live, figure.formula")].map(where =>
+        book.figures = drawn.map(where =>
             where.dataset.slider ? new Formula(where) : new Figure(where));
         const watch = new IntersectionObserver(entries => {
             for (const {target, isIntersecting} of entries)
                 book.figures.find(({where}) => where === target).inSight = isIntersecting;
             book.last = performance.now();
             schedule();
-        }, {rootMargin: "100px"});
+        }, {rootMargin: SOON});
         book.figures.forEach(({where}) => watch.observe(where));
         listenToAnswers();
         document.body.dataset.ready = "yes";
     }
 
-    /* Then the figures are the pictures that stand there. */
     open().catch(error => {
         document.getElementById("error").textContent = "The figures stand still, because this page cannot draw: " + error;
         document.body.dataset.ready = "still";
-        document.body.classList.add("still");
+        stand();
     });
     return {book, schedule, read, point};
 })();

@@ -26,6 +26,7 @@ import subprocess
 import sys
 
 import markdown
+import svg
 
 FOLDER = pathlib.Path(__file__).resolve().parent.parent / "chapter"
 SHADERS = FOLDER.parent.parent / "shaders"
@@ -35,7 +36,8 @@ SETS = re.compile(r"`(--[^`]+|[A-Z]\w+(?: --[^`]+)?|hard_cases --[^`]+)`\n+:   "
 CHECK = re.compile(r'\[([^\[\]]*)\]\{check="([^"]*)"\}')
 PLACE = re.compile(r"<!-- place: (.*?) -->", re.DOTALL)
 AT = re.compile(r"<!-- at: (.*?) -->", re.DOTALL)
-STILL = {"Vectors", "hard_cases"}  # not in the pages' module
+# Not in the pages' module, and how large their pictures are, so that the text below stays when they come.
+STILL = {"Vectors": ' width="800" height="450"', "hard_cases": ' width="1250" height="314"'}
 # Emphasis, links, code and checks left out.
 PLAIN = ((CHECK, r"\1"), (re.compile(r"\[([^\]]*)\]\([^)]*\)"), r"\1"), (re.compile(r"[`*$]"), ""))
 
@@ -86,6 +88,8 @@ def draw_one(programs, words, to):
     quiet = {"check": True, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
     if name != "hard_cases":
         subprocess.run([programs / name, *options, "-o", to], **quiet)
+        if to.suffix == ".svg":
+            to.write_text(svg.shorten(to.read_text(encoding="utf-8")), encoding="utf-8")
         return
     folder = to.with_suffix(".hard")
     subprocess.run([programs / name, *options, "-o", folder], **quiet)
@@ -164,6 +168,19 @@ def plot():
             '<circle class="mine" cx="345" cy="280" r="5"/><text x="355" y="284">this device</text></svg>')
 
 
+def still(figure, caption, hidden=""):
+    """The picture of a figure, which book.js loads when it is in sight, and where something is drawn instead not before paper
+    or a failure needs it."""
+    image = f'src="{figure.picture}"{STILL.get(figure.name, "")} alt="{caption}">'
+    return f"<img{hidden} data-{image}<noscript><img {image}</noscript>"
+
+
+def canvas(words, caption, more=' tabindex="0"'):
+    """As large as the picture will be."""
+    width, height = re.search(r"--size (\d+)x(\d+)|$", words).groups()
+    return f'<canvas width="{width or 400}" height="{height or 400}"{more} role="img" aria-label="{caption}"></canvas>'
+
+
 def frame(figure, change):
     """What stands above a caption."""
     caption = html.escape(plain(figure.caption), quote=True)
@@ -171,13 +188,12 @@ def frame(figure, change):
         return f'<details class="diff"><summary>The text itself</summary>\n<pre tabindex="0">{change(*figure.words)}</pre></details>'
     if figure.kind == "precision":
         return '<div class="wide" tabindex="0" role="group" aria-label="Table"><table class="precision"></table></div>'
-    image = f'<img src="{figure.picture}" alt="{caption}">'
     if figure.kind == "formula":
-        return image + ways(figure)
+        return still(figure, caption, " hidden") + ways(figure)
     if not figure.live:
-        return image
+        return still(figure, caption)
     below = plot() if "plot" in figure.controls.split(",") else ""
-    return (f'{image}\n<div class="stack" hidden><canvas tabindex="0" role="img" aria-label="{caption}"></canvas></div>\n{below}<p class="read"></p>\n'
+    return (f'{still(figure, caption, " hidden")}\n<div class="stack loading">{canvas(" ".join(figure.words), caption)}</div>\n{below}<p class="read"></p>\n'
             '<form class="controls" autocomplete="off"></form>\n<p class="told" role="status"></p>')
 
 
@@ -192,9 +208,9 @@ def ways(figure):
             texts += (f'<details data-file="{name}"><summary>The plain formula</summary><pre tabindex="0">{html.escape(text)}</pre>'
                       "</details>")
         words = " ".join(word for word in words if ".glsl=" not in word)
-        focus = "" if way == "exact" else ' tabindex="0"'
-        made += f'<p class="way" data-words="{words}"><span class="stack"><canvas{focus} role="img" aria-label="{way}"></canvas></span>{way}<span></span></p>'
-    return (f'<div class="ways" hidden>{made}</div><p class="read"></p>{texts}<p class="told" role="status"></p><form class="controls" hidden><label>'
+        drawn = canvas(figure.parts["live"], way, "" if way == "exact" else ' tabindex="0"')
+        made += f'<p class="way" data-words="{words}"><span class="stack loading">{drawn}</span>{way}<span></span></p>'
+    return (f'<div class="ways">{made}</div><p class="read"></p>{texts}<p class="told" role="status"></p><form class="controls" hidden><label>'
             f'<code>--{option}</code> <output></output><input type="range" min="{low}" max="{high}" step="{step}" value="{start}">'
             "</label></form>")
 

@@ -42,6 +42,7 @@ class Formula {
             throw new Error(engine.message);
         const picture = this.ways[way].picture = engine.picture();
         Controls.paint(this.ways[way].canvas, picture);
+        this.ways[way].canvas.parentNode.classList.remove("loading");
         this.ways[way].point.renew();
         return picture;
     }
@@ -62,9 +63,7 @@ class Formula {
     }
 
     show() {
-        this.where.querySelector("img").hidden = true;
-        for (const part of this.where.querySelectorAll(".ways, .controls"))
-            part.hidden = false;
+        this.where.querySelector(".controls").hidden = false;
         this.where.querySelector("output").textContent = this.value(this.slider.value);
         this.where.querySelector(".command").textContent = ["examples/run", this.base.name,
             ...[...this.options(1)].map(([name, value]) => `--${name} ${value}`)].join(" ");
@@ -81,7 +80,9 @@ class Formula {
             return;
         this.ways[1].said.textContent = error ? `: ${error.inside.maximum.toFixed(1)} steps from exact` : "";
         this.told.textContent = message || "";
-        if (map)
+        if (map) {
             Controls.paint(this.ways[2].canvas, map);
+            this.ways[2].canvas.parentNode.classList.remove("loading");
+        }
     }
 }

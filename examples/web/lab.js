@@ -4,7 +4,7 @@ const Lab = (() => {
     const WAIT = 200; /* ms after the time's last change until the exact picture */
     const {element} = Controls;
     const part = id => document.getElementById(id);
-    const lab = {name: document.body.dataset.lab, path: document.body.dataset.lab, own: null, compiled: null, files: [], texts: new Map(), seconds: 1, editor: null};
+    const lab = {name: document.body.dataset.lab, path: document.body.dataset.lab, own: null, files: [], texts: new Map(), seconds: 1, editor: null};
     const short = message => message.replace(/\/tmp\/mine\//g, "");
     /* Set while a text is drawn: if it is there when the page opens, that text may have hung the page. */
     const RUNNING = "lighting drawing " + lab.name;
@@ -28,7 +28,7 @@ const Lab = (() => {
 
     async function ask(task) {
         mark(true);
-        const answer = await LabWorker.ask({compiled: lab.compiled, lab: lab.path, own: lab.own, texts: lab.texts, ...task});
+        const answer = await LabWorker.ask({lab: lab.path, own: lab.own, texts: lab.texts, ...task});
         if (answer)
             mark(false);
         return answer;
@@ -185,7 +185,6 @@ const Lab = (() => {
         const hung = isMarked();
         if (typeof OWN !== "undefined")
             Object.assign(lab, {own: JSON.parse(new TextDecoder().decode(unpack(OWN))), path: "/own/" + lab.name});
-        lab.compiled = await compileLighting();
         lab.files = JSON.parse(document.body.dataset.files);
         lab.editor = Editor.open(part("editor"), "lighting " + lab.name, lab.files, apply);
         listen();

@@ -6,6 +6,8 @@ const LabWorker = (() => {
     const HANGS = "No answer: look for an endless loop. Your text is kept. If nothing is drawn after the next " +
                   "change, reload the page.";
     let worker = null, current = null, waiting = [];
+    let drawn = null, judged = null; /* promises of {module, compiled}: at first, and from the first check on */
+    let used = null; /* the worker's */
 
     function work() {
         let engine = null;
@@ -56,7 +58,7 @@ const LabWorker = (() => {
     }
 
     function start() {
-        worker = startWorker(work);
+        worker = startWorker(work, used.module);
         worker.onmessage = ({data}) => data.lost ? again() : finish(data);
         worker.onerror = event => end(event.message || "this browser starts no worker");
     }
@@ -95,17 +97,38 @@ const LabWorker = (() => {
 
     function post(job) {
         current = job;
+        if (worker && used !== job.by) {
+            worker.terminate();
+            worker = null;
+        }
+        used = job.by;
         if (!worker)
             start();
         job.timer = setTimeout(() => end(HANGS), api.limit * (job.task.what === "check" ? CHECKS : 1));
-        worker.postMessage(job.task);
+        worker.postMessage({...job.task, compiled: used.compiled});
     }
 
-    /* {compiled, what: "draw" or "check", ...}. One task at a time; of those of a kind that wait the last is done,
+    const compile = async module => ({module, compiled: await compileLighting(module)});
+
+    /* What judges is loaded with the first check, and draws from then on. */
+    function load(what) {
+        drawn ||= compile(programModule());
+        if (what === "check")
+            judged ||= Point.load().then(() => compile(PROBE)).catch(error => { judged = null; throw error; });
+        return judged || drawn;
+    }
+
+    /* {what: "draw" or "check", ...}. One task at a time; of those of a kind that wait the last is done,
      * and the others are answered by null. */
-    function ask(task) {
+    async function ask(task) {
+        let by;
+        try {
+            by = await load(task.what);
+        } catch (error) {
+            return {message: String(error)};
+        }
         return new Promise(resolve => {
-            const job = {task, resolve};
+            const job = {task, by, resolve};
             if (!current)
                 return post(job);
             waiting.filter(other => other.task.what === task.what).forEach(other => other.resolve(null));

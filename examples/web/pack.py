@@ -1,6 +1,6 @@
 """Packs the module and the pages into a folder that works by double click.
 
-    pack.py SOURCE_FOLDER MODULE_JS LABS_MODULE_JS PROBE_JS READER_JS FOLDER FOLDER/PROGRAM... labs/LAB...
+    pack.py SOURCE_FOLDER MODULE_JS LABS_MODULE_JS LABS_JUDGE_JS PROBE_JS READER_JS FOLDER FOLDER/PROGRAM... labs/LAB...
     pack.py --own SOURCE_FOLDER FOLDER LAB_FOLDER...
 
 The second adds pages of other labs, each a folder whose picture is FOLDER/NAME.png, to a FOLDER of the first.
@@ -32,13 +32,13 @@ PROGRAM = ["lighting.js", "module.js", "worker.js", "png.js", "zip.js", "link.js
            "lent.js", "share.js", "undo.js", "wipe.js", "before.js", "assembled.js", "point.js", "program.js"]
 # What a page loads when a pixel is asked for.
 POINTED = ["probe.js", "precision.js", "pixel.js"]
-BOOK = ["lighting.js", "module.js", "worker.js", "controls.js", "point.js", "book.js", "slides.js"]
+BOOK = ["module.js", "worker.js", "controls.js", "point.js", "book.js", "slides.js"]
 LABS = ["progress.js", "labs.js"]
 BORROW = ["precision.js", "qrcode.js", "borrow.js"]
 LAB = ["labs_module.js", "module.js", "progress.js", "lab_worker.js", "png.js", "zip.js", "controls.js",
        "editor.js", "wipe.js", "point.js", "lab.js"]
-# The labs' module runs shaders itself.
-LAB_POINTED = ["precision.js", "pixel.js", "wrong.js"]
+# And with the first check.
+LAB_POINTED = ["labs_judge.js", "precision.js", "pixel.js", "wrong.js"]
 CHECK = """<div class="row"><button type="button" id="check">Check</button></div>
 <p><small>Draws your files in a dozen scenes and says what is wrong, as <code>check</code> does natively.</small></p>"""
 NO_CHECK = """<p>This lab is written in C, which the browser does not compile. Check it natively:
@@ -106,8 +106,8 @@ if sys.argv[1] == "--own":
     root, site, *own = (pathlib.Path(path) for path in sys.argv[2:])
     labs = sorted(path.name for path in (root / "examples/labs").glob("lab[0-9][0-9]_*"))
 else:
-    root, module, labs_module, probe_module, reader_module, site = (pathlib.Path(path) for path in sys.argv[1:7])
-    own, paths = [], [path.split("/") for path in sys.argv[7:]]
+    root, module, labs_module, labs_judge, probe_module, reader_module, site = (pathlib.Path(path) for path in sys.argv[1:8])
+    own, paths = [], [path.split("/") for path in sys.argv[8:]]
     programs = [path for path in paths if path[0] != "labs"]
     labs = [name for folder, name in paths if folder == "labs"]
 lab_folders = {name: root / "examples/labs" / name for name in labs} | {path.name: path for path in own}
@@ -187,10 +187,9 @@ def shared(names):
 
 def alone(names):
     """In one file. The module that runs shaders does what the pages' own does, and takes its place."""
-    if PROGRAM[-1] in names:
-        names = [POINTED[0], *names[1:-1], *POINTED[1:], names[-1]]
-    if LAB[-1] in names:
-        names = [*names[:-1], *LAB_POINTED, names[-1]]
+    for last, drawn, (probe, *pointed) in ((PROGRAM[-1], PROGRAM[0], POINTED), (LAB[-1], LAB[0], LAB_POINTED)):
+        if last in names:
+            names = [probe if name == drawn else name for name in names[:-1]] + [*pointed, last]
     texts = ["\n" + read(site / name).replace("</script", "<\\/script") for name in names]
     style = "\n" + read(site / "style.css") + read(site / "pixel.css")
     return {"head": HEAD % policy(" ".join(map(digest, texts)), digest(style)), "style": f"<style>{style}</style>",
@@ -264,7 +263,7 @@ def lab_page(name, parts, single):
     return fill("lab.html", name=name, title=html.escape(title(name)), task=markdown.to_html(task),
                 files=html.escape(json.dumps(starter(lab_folders[name]))), more=markdown.to_html(what + more), links=links, note=note,
                 editor=EDITOR % ("file", ""), check=NO_CHECK if name == "lab03_normal_matrix" else CHECK,
-                **parts)
+                pointed=" ".join(LAB_POINTED), weight=f"{weight([*LAB_POINTED, 'pixel.css']):.0f}", **parts)
 
 
 def lab_card(name):
@@ -293,6 +292,7 @@ def write_own():
 
 def write_labs():
     write(site / "labs_module.js", module_js("LIGHTING", labs_module))
+    write(site / "labs_judge.js", module_js("PROBE", labs_judge))
     write(site / "labs.html", fill("labs.html", cards="".join(map(lab_card, labs)), **shared(LABS)))
     for name in labs:
         shutil.copy(root / "examples/labs" / name / "expected.png", site / f"{name}.png")
@@ -312,11 +312,12 @@ def beside(all_chapters, at):
 
 def write_book():
     all_chapters = book.chapters()
+    pointed = [*POINTED, "terms.js"]
     for at, chapter in enumerate(all_chapters):
         scripts = [f"{kind}.js" for kind in ("formula", "precision") if f"]({kind}:" in chapter.text] + BOOK
         write(site / f"{chapter.name}.html",
               fill("chapter.html", title=html.escape(book.plain(chapter.title)), links=beside(all_chapters, at),
-                   body=book.body(chapter, diff), pointed=" ".join([*POINTED, "terms.js"]), **shared(scripts)))
+                   body=book.body(chapter, diff), pointed=" ".join(pointed), weight=f"{weight([*pointed, 'pixel.css']):.0f}", **shared(scripts)))
     items = "".join(f'<li value="{chapter.number}"><a href="{chapter.name}.html">{html.escape(book.plain(chapter.title))}</a></li>\n'
                     for chapter in all_chapters)
     write(site / "book.html", fill("book.html", chapters=items, **shared([])))

@@ -35,9 +35,10 @@ MARGINS = '@page %s { @top-center { content: "%s"; font: 9pt sans-serif; color: 
 def article(site, name):
     """A chapter, its links leading into this book."""
     text = re.search(r"<article>\n(.*)</article>", (site / f"{name}.html").read_text(encoding="utf-8"), re.DOTALL)[1]
-    text = re.sub(r'<canvas hidden.*?</canvas>|<form class="controls".*?</form>|<details class="numbers">.*?</details>', "", text,
+    text = re.sub(r'<form class="controls".*?</form>|<details class="numbers">.*?</details>', "", text,
                   flags=re.DOTALL)
-    text = text.replace("<details ", "<details open ").replace(' loading="lazy"', "")
+    text = re.sub("<noscript>.*?</noscript>", "", text).replace("<details ", "<details open ").replace(' loading="lazy"', "")
+    text = text.replace(" data-src=", " src=")
     text = re.sub(r'href="(chapter\d\d)\.html"', r'href="#\1"', text)
     return re.sub(r'<a href="\w+\.html">(.*?)</a>', r"\1", text)
 

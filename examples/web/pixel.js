@@ -14,7 +14,6 @@ const Pixel = (() => {
     const COMPUTED = "computed"; /* of the values: the picture itself */
     const AS = new URLSearchParams(location.search).get("as"); /* the device of the page's address */
     const waiting = new Map();
-    const probe = () => typeof PROBE === "undefined" ? programModule() : PROBE; /* the labs' module runs shaders itself */
 
     function work() {
         let ready = null, drawn = "";
@@ -51,7 +50,7 @@ const Pixel = (() => {
 
     /* {text, picture} or {message}. */
     async function ask(what, values, task = of.task(), from = of) {
-        const [used, source] = from?.module?.() || [await (compiled ||= compileLighting(probe())), probe()];
+        const [used, source] = from?.module?.() || [await (compiled ||= compileLighting(PROBE)), PROBE];
         device ||= AS || Precision.device();
         const data = {id: ++count, compiled: used, task, device, what, values};
         if (drawn !== used) {

@@ -3,6 +3,7 @@
 
 usage: book_test.py EXAMPLES_FOLDER_OF_THE_BUILD PAGE_NATIVE SOURCE_FOLDER [unittest's arguments]
 """
+import gzip
 import os
 import pathlib
 import re
@@ -15,6 +16,7 @@ sys.path.insert(0, os.path.dirname(__file__))
 sys.path.insert(0, os.path.join(os.path.abspath(sys.argv[3]), "examples/web"))
 import book
 import claims
+import svg
 from claims import EXAMPLES, SOURCE
 
 CHAPTERS = book.chapters()
@@ -86,9 +88,36 @@ class Figures(unittest.TestCase):
         for chapter in CHAPTERS:
             parts = book.FIGURE.split(chapter.text)[4::4]
             for figure, text in zip(chapter.figures, parts):
-                if figure.kind == "program":
+                if figure.kind != "change":
                     with self.subTest(figure.number):
                         self.assertGreaterEqual(len(re.findall(r"^:   ", text, re.MULTILINE)), 2)
+
+
+class Diagrams(unittest.TestCase):
+    def test_a_short_diagram_is_the_same(self):
+        """Each point within a tenth: half of it by the outline's beginning, half by the point's place from there."""
+        whole = claims.run("Vectors --figure ambient -o - --format svg").decode()
+        short = svg.shorten(whole)
+        paths = [list(map(self.points, re.findall(r' d="([^"]*)"', text))) for text in (whole, short)]
+        self.assertGreater(sum(map(len, paths[0])), 5000)
+        for one, other in zip(*paths, strict=True):
+            for a, b in zip(one, other, strict=True):
+                self.assertLess(max(abs(a[0] - b[0]), abs(a[1] - b[1])), 0.1001)
+        self.assertEqual(*(re.sub(' d="[^"]*"', "", text) for text in (whole, short)))
+        self.assertLess(3 * len(gzip.compress(short.encode())), len(gzip.compress(whole.encode())))
+
+    @staticmethod
+    def points(path):
+        """Of all commands, in absolute coordinates."""
+        found, at = [], (0, 0)
+        for command, rest in re.findall("([A-Za-z])([^A-Za-z]*)", path):
+            values = list(map(float, re.findall(r"-?(?:\d+\.?\d*|\.\d+)", rest)))
+            from_ = at if command.islower() else (0, 0)
+            places = [(x + from_[0], y + from_[1]) for x, y in zip(values[::2], values[1::2])]
+            found += places
+            start = places[0] if command == "M" else start
+            at = places[-1] if places else start
+        return found
 
 
 class Formulas(unittest.TestCase):

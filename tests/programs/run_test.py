@@ -5,6 +5,7 @@ usage: run_test.py EXAMPLES_FOLDER_OF_THE_BUILD SOURCE_FOLDER [unittest's argume
 
 Builds nothing: in copies of the scripts, programs of a few lines stand for meson, ninja and apt-get.
 """
+import itertools
 import json
 import os
 import re
@@ -147,8 +148,13 @@ class Names(Case):
         programs = json.loads(text)
         self.assertEqual({one["name"] for one in programs},
                          set(base.EVERY) | {"Vectors"} | {"check", "Scene"})
-        self.assertEqual("".join(f"{one['name']:32} {one['summary']}\n" for one in programs),
-                         self.start("--list")[1])
+        # The same by groups, each under a title.
+        parts = [part.split("\n", 1) for part in self.start("--list")[1].rstrip("\n").split("\n\n")]
+        groups = [list(group) for _, group in itertools.groupby(programs, lambda one: one["group"])]
+        self.assertEqual([rows for _, rows in parts],
+                         ["\n".join(f"  {one['name']:32} {one['summary']}" for one in group) for group in groups])
+        for title, _ in parts:
+            self.assertRegex(title, "^[A-Z].*:$")
         for one in programs:
             folder = os.path.join(base.SOURCE, "examples", one["group"])
             self.assertTrue(one["group"] == "all" or os.path.isdir(folder), one)

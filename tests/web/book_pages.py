@@ -9,7 +9,9 @@ import shlex
 import subprocess
 import sys
 import tempfile
+import urllib.parse
 
+import sizes
 from pages import SITE, SOURCE, Case, address, differences, native
 
 CHAPTERS = sorted(path.stem for path in pathlib.Path(SITE).glob("chapter*.html")) or [f"chapter{i:02}" for i in range(1, 22)]
@@ -53,7 +55,8 @@ class Book(Case):
                 for number in range(self.page.run("Book.book.figures.length")):
                     self.assert_figure(number)
                 self.assertEqual(self.page.run("""[...document.images].filter(image =>
-                    image.complete && !image.naturalWidth).map(image => image.src)"""), [])
+                    image.src && image.complete && (!image.naturalWidth || (image.getAttribute("width") || image.naturalWidth) != image.naturalWidth))
+                    .map(image => image.src)"""), [])
                 self.assertEqual(self.page.complaints(), [])
                 self.assertTrue(all(url.startswith(("file:", "blob:", "data:")) for url in self.page.requests()))
 
@@ -168,16 +171,35 @@ class Book(Case):
         self.assertEqual(self.page.run(shown), "H1")
 
     def test_paper(self):
-        self.open("chapter07")
-        self.page.wait("!Book.book.figures[0].canvas.hidden")
-        self.page.call("Emulation.setEmulatedMedia", media="print")
-        try:
-            self.assertEqual(self.page.run("[...document.querySelectorAll('figure > canvas')].filter(c => c.offsetHeight).length"), 0)
-            self.assertEqual(self.page.run("[...document.querySelectorAll('figure > img')].filter(c => !c.offsetHeight).length"), 0)
-        finally:
-            self.page.call("Emulation.setEmulatedMedia", media="")
-        self.page.run("dispatchEvent(new Event('beforeprint'))")
-        self.assertEqual(self.page.run("document.querySelectorAll('.expect:not([open])').length"), 0)
+        for name in ("chapter07", "chapter20"):
+            self.open_all(name)
+            self.page.call("Emulation.setEmulatedMedia", media="print")
+            try:
+                self.page.run("dispatchEvent(new Event('beforeprint'))")
+                self.page.wait("[...document.querySelectorAll('figure > img')].every(image => image.naturalWidth && image.offsetHeight)")
+                self.assertEqual(self.page.run("[...document.querySelectorAll('figure canvas')].filter(c => c.offsetHeight).length"), 0)
+            finally:
+                self.page.call("Emulation.setEmulatedMedia", media="")
+            self.assertEqual(self.page.run("document.querySelectorAll('.expect:not([open])').length"), 0)
+            # As its reader prints it: with all pictures.
+            self.open(name)
+            with tempfile.TemporaryDirectory() as folder:
+                file = pathlib.Path(folder, "chapter.pdf")
+                file.write_bytes(base64.b64decode(self.page.call("Page.printToPDF")["data"]))
+                images = subprocess.run(["pdfimages", "-list", file], check=True, stdout=subprocess.PIPE, encoding="utf-8").stdout
+            source = pathlib.Path(SITE, name + ".html").read_text(encoding="utf-8")
+            self.assertGreaterEqual(len(images.splitlines()) - 2, len(re.findall(r'<img[^>]* data-src="\w+\.png"', source)))
+
+    def test_what_comes_at_once(self):
+        """With the pictures that are in sight, packed as a server sends them; on a phone, too."""
+        for width, height in ((1280, 900), (390, 800)):
+            self.page.resize(width, height)
+            for name in CHAPTERS:
+                self.page.open(address(name))
+                self.page.wait(STEADY)
+                loaded = {pathlib.Path(urllib.parse.unquote(urllib.parse.urlparse(url).path)) for url in self.page.requests() if url.startswith("file:")}
+                self.assertIn(pathlib.Path(SITE, "book.js"), loaded)
+                self.assertLess(sum(map(sizes.packed, loaded)), 250000, name)
 
     def test_the_whole_on_paper(self):
         """As one PDF: every heading and figure in order, each picture, and the page of each chapter in the contents."""
@@ -199,7 +221,7 @@ class Book(Case):
                 found = text.find(words, at)
                 self.assertGreater(found, -1, words)
                 at = found
-            pictures += len(re.findall(r'<img (?:class="drawn" )?src="\w+\.png"', source))
+            pictures += len(re.findall(r'<img (?:hidden data-|data-|class="drawn" )src="\w+\.png"', source))
         self.assertGreaterEqual(len(images), pictures)
 
     @staticmethod
@@ -216,8 +238,8 @@ class Book(Case):
         try:
             self.open("chapter07")
             self.page.wait("Book.book.figures.every(({drawn}) => drawn)")
-            self.assertEqual(self.page.run("[...document.querySelectorAll('figure > canvas')].filter(c => !c.hidden).length"), 0)
-            self.assertEqual(self.page.run("[...document.querySelectorAll('figure > img')].filter(c => !c.offsetHeight).length"), 0)
+            self.page.wait("[...document.querySelectorAll('figure > img')].every(image => image.naturalWidth && image.offsetHeight)")
+            self.assertEqual(self.page.run("[...document.querySelectorAll('figure canvas')].filter(c => c.offsetHeight).length"), 0)
             self.page.run("document.querySelectorAll('details.expect').forEach(part => { part.open = true; })")
             self.page.wait("[...document.querySelectorAll('.drawn')].every(image => image.naturalWidth && image.offsetHeight)")
         finally:

@@ -932,13 +932,13 @@ class Pages(Case):
             self.page.wait("!document.getElementById('exact').hidden")
 
     def test_sizes(self):
-        """At most 250 kB, labs 260, 275 in one file, which explains pixels, too; and what the table of the pages says."""
+        """At most 250 kB, 275 in one file, which explains pixels, too; and what the table of the pages says."""
         measured = list(sizes.sizes(SITE))
         said = {name: row for name, *row in sizes.read(pathlib.Path(SOURCE, "examples/web/README.md").read_text())}
         self.assertGreater(len(measured), 30)
         self.assertIn(pathlib.Path(SITE, "program.js"), sizes.loaded(pathlib.Path(SITE), "Materials"))
         for name, *row in measured:
-            self.assertLess(max(row[:2]), 260000 if name.startswith("lab") else 250000, name)
+            self.assertLess(max(row[:2]), 250000, name)
             self.assertLess(row[2], 275000, name)
             for new, old in zip(row, said.pop(name)):
                 self.assertLess(abs(new - old), max(0.05 * old, 150), f"{name}: now {row}; run tests/tables sizes")

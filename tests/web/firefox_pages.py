@@ -5,7 +5,7 @@ import unittest
 import firefox
 from labs_pages import SHADERS, SOLUTION, OfLabs, check, mistakes, said
 from model_pages import OfModels
-from pages import RENDERER, address, differences, native
+from pages import RENDERER, differences, native
 
 MISSING = firefox.missing()
 SAYS_MEDIUMP = ("PointLightedCube_perFragment", "PointLightedSphere_perFragment")
@@ -64,7 +64,7 @@ class InFirefox(OfLabs, OfModels):
 
     def test_a_pixel_of_the_book(self):
         """Both formulas of the chapter have its numbers."""
-        self.page.open(address("chapter13"), "document.body.dataset.ready === 'yes'")
+        self.open("chapter13")
         self.page.run("Book.book.figures[1].where.scrollIntoView()")
         self.page.wait("Book.book.figures[1].drawn")
         self.page.run("""(() => {

@@ -73,7 +73,7 @@ def made(every):
 
 class OfLabs(Case):
     def judge(self, lab, texts):
-        return self.page.run(f"""LabWorker.ask({{compiled: Lab.lab.compiled, lab: {json.dumps(mistakes.NAMES[lab])},
+        return self.page.run(f"""LabWorker.ask({{lab: {json.dumps(mistakes.NAMES[lab])},
             what: "check", seed: 1, texts: new Map(Object.entries({json.dumps(texts)}))}})
             .then(answer => answer.verdict || {{message: answer.message}})""")
 
@@ -160,7 +160,7 @@ class Verdicts(OfLabs):
         self.open(mistakes.NAMES[5])
         for number, (name, ((lab, texts), file, meaning)) in enumerate(faults.FAULTS.items()):
             with self.subTest(name):
-                said = self.page.run(f"""LabWorker.ask({{compiled: Lab.lab.compiled, lab: {json.dumps(mistakes.NAMES[lab])},
+                said = self.page.run(f"""LabWorker.ask({{lab: {json.dumps(mistakes.NAMES[lab])},
                     what: "draw", seconds: 1, texts: new Map(Object.entries({json.dumps(texts)}))}})
                     .then(answer => answer.message.replace("/tmp/mine/", ""))""")
                 if file:

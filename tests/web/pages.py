@@ -78,6 +78,9 @@ class Case(unittest.TestCase):
 
     def open(self, name, link=""):
         self.page.open(address(name, link))
+        if name.startswith("chapter"):  # which load what draws when the reader reads on
+            self.page.run("dispatchEvent(new Event('scroll'))")
+            self.page.wait("Book.book.figures.length || !document.querySelector('.live, .formula') || document.body.matches('.still')")
 
     def text(self, selector):
         return self.page.run(f"document.querySelector({json.dumps(selector)}).textContent.trim()")

@@ -15,10 +15,11 @@ def packed(path):
 
 
 def loaded(site, name):
-    """The files that a page loads: scripts, styles, pictures other than a chapter's, which come when they may."""
+    """The files that a page loads: scripts, styles, pictures other than a chapter's, which come when they are in sight."""
     text = (site / f"{name}.html").read_text(encoding="utf-8")
     return [site / file for file in re.findall(r'<(?:script|img) src="(.*?)"|<link rel="stylesheet" href="(.*?)"', text)
-            for file in file if file and not re.match(r"chapter\d\d_", file)]
+            for file in file if file and not re.match(r"chapter\d\d_", file)] + [
+                site / "lighting.js"] * bool(re.search(r'<figure class="(?:live|formula)"', text))  # if one is in sight
 
 
 def sizes(site):
