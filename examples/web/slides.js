@@ -6,12 +6,16 @@
     const scheme = window.matchMedia("(prefers-color-scheme: dark)");
     let at = 0, notes = null;
 
-    /* The paragraphs and questions up to the next step. */
-    function between() {
-        const texts = [];
+    /* The paragraphs and questions up to the next step, answers open, as they are but for pictures. */
+    function between(page) {
+        const parts = [];
         for (let next = steps[at].nextElementSibling; next && !steps.includes(next); next = next.nextElementSibling)
-            texts.push(next.textContent.trim());
-        return texts;
+            parts.push(page.importNode(next, true));
+        for (const part of parts) {
+            part.querySelectorAll("img").forEach(image => image.remove());
+            part.open = true;
+        }
+        return parts;
     }
 
     function note() {
@@ -20,7 +24,7 @@
         const {document: page} = notes;
         page.title = `${at + 1} of ${steps.length}`;
         page.body.style.cssText = "font: 1.3rem/1.5 sans-serif; max-width: 40rem; margin: 1rem auto; padding: 0 1rem";
-        page.body.replaceChildren(...between().map(text => Controls.element("p", {}, text)));
+        page.body.replaceChildren(...between(page));
     }
 
     function show(step) {

@@ -152,7 +152,7 @@ class Book(Case):
     def test_out_of_sight_it_rests(self):
         self.page.resize(1000, 600)
         self.open("chapter12")
-        self.page.wait("Book.book.figures[0].drawn")
+        self.page.wait("Book.book.figures[0]?.drawn")
         last = "Book.book.figures[Book.book.figures.length - 1]"
         self.assertEqual(self.page.run(last + ".drawn"), "")
         self.page.run(last + ".where.scrollIntoView()")
@@ -166,7 +166,17 @@ class Book(Case):
         for tag in ("FIGURE", "P", "H2", "FIGURE"):
             self.page.key("ArrowRight")
             self.assertEqual(self.page.run(shown), tag)
-        self.page.wait("Book.book.figures[0].drawn")
+        self.page.wait("Book.book.figures[0]?.drawn")
+        # The notes of this figure: the next one's have other words.
+        self.page.run("window.real = open; window.open = (...rest) => (window.notes = real(...rest))")
+        self.page.key("n")
+        notes = self.page.run("notes.document.title + notes.document.body.innerText")
+        self.assertRegex(notes, "^5 of [0-9]+")
+        question = self.page.run("document.querySelector('.shown').nextElementSibling.querySelector('summary').textContent")
+        self.assertIn(" ".join(question.split()[:5]), " ".join(notes.split()))  # then formulas, with their TeX in the page
+        self.page.key("ArrowRight")
+        self.assertRegex(self.page.run("notes.document.title"), "^6 of [0-9]+")
+        self.page.run("notes.close()")
         self.page.key("Home")
         self.assertEqual(self.page.run(shown), "H1")
 

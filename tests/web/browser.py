@@ -14,7 +14,7 @@ PATIENCE = 120  # seconds after which a page counts as hanging, also on a busy m
 SHIFT = 8
 KEYS = {" ": ("Space", 32), "Tab": ("Tab", 9), "Enter": ("Enter", 13), "ArrowRight": ("ArrowRight", 39),
         "ArrowUp": ("ArrowUp", 38), "Home": ("Home", 36), "+": ("Equal", 187),
-        "Escape": ("Escape", 27), "z": ("KeyZ", 90)}
+        "Escape": ("Escape", 27), "n": ("KeyN", 78), "z": ("KeyZ", 90)}
 
 
 class Failed(Exception):
