@@ -26,11 +26,6 @@ int text_numbers(const char *text, const char *form, int *numbers)
     return (int)(at - text);
 }
 
-bool text_is_word(char c)
-{
-    return isalnum((unsigned char)c) || c == '_';
-}
-
 int text_character(const char *text)
 {
     static const struct {

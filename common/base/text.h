@@ -9,7 +9,10 @@
 #include <stdio.h>
 
 /* Whether a character can be part of a name in C or GLSL: a letter, a digit or an underscore. */
-bool text_is_word(char c);
+static inline bool text_is_word(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
 
 /* The bytes of the UTF-8 character (RFC 3629) that a text begins with; 0: it begins with none. */
 int text_character(const char *text);

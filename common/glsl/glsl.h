@@ -151,6 +151,7 @@ typedef struct GlslLimits {
     bool no_highp;  /* in fragment shaders */
     int tokens;     /* of the text after, and of all macros during, preprocessing */
     int depth;      /* of parentheses, blocks, macros' arguments and conditions in each other */
+    bool silent;    /* the first message ends reading, and says nothing of what is similar */
 } GlslLimits;
 
 /* The least that the specification demands, three extensions, 500,000 tokens, 200 deep. */

@@ -32,7 +32,8 @@ static Tokens read_line(Preprocessor *all)
 {
     Tokens line = {0};
     for (;;) {
-        Token token = lexer_next(&all->lexer, all->names);
+        Token token;
+        lexer_next(&all->lexer, all->names, &token);
         if (token.kind == TOKEN_LINE || token.kind == TOKEN_END) {
             token.kind = TOKEN_END;
             tokens_add(&line, token);
@@ -328,30 +329,32 @@ static void directive(Preprocessor *all)
     free(line.items);
 }
 
-Token preprocess_text(Preprocessor *all)
+void preprocess_text(Preprocessor *all, Token *token)
 {
     for (;;) {
-        const Token token = lexer_next(&all->lexer, all->names);
-        if (token.kind == TOKEN_END) {
+        lexer_next(&all->lexer, all->names, token);
+        if (token->kind == TOKEN_END) {
             if (all->lexer.unended)
                 preprocess_fail(all, (GlslPlace){all->lexer.file, all->lexer.comment, 1},
                                 "a comment that begins with /* does not end with */");
             if (all->condition_count)
                 preprocess_fail(all, all->conditions[all->condition_count - 1].place,
                                 "this #if has no #endif");
-            return token;
+            return;
         }
-        if (token.kind == TOKEN_LINE) {
+        if (token->kind == TOKEN_LINE) {
             all->fresh = true;
-        } else if (token.kind == '#' && all->fresh) {
+        } else if (token->kind == '#' && all->fresh) {
             directive(all);
-            if (all->failed)
-                return (Token){.kind = TOKEN_END, .text = "", .place = token.place};
+            if (all->failed) {
+                *token = (Token){.kind = TOKEN_END, .text = "", .place = token->place};
+                return;
+            }
         } else {
             all->fresh = false;
             if (reading(all)) {
                 all->started = all->said = true;
-                return token;
+                return;
             }
         }
     }

@@ -134,7 +134,7 @@ static bool skip_space(Lexer *lexer)
 {
     const char *start = lexer->at;
     for (;;)
-        if (*lexer->at && strchr(" \t\v\f", *lexer->at))
+        if (*lexer->at == ' ' || (*lexer->at && strchr("\t\v\f", *lexer->at)))
             lexer->at++;
         else if (lexer->at[0] == '/' && (lexer->at[1] == '/' || lexer->at[1] == '*'))
             skip_comment(lexer);
@@ -142,32 +142,31 @@ static bool skip_space(Lexer *lexer)
             return lexer->at > start;
 }
 
-Token lexer_next(Lexer *lexer, Names *names)
+void lexer_next(Lexer *lexer, Names *names, Token *token)
 {
     const bool spaced = skip_space(lexer);
-    Token token = {.text = lexer->at, .length = 1, .spaced = spaced};
-    token.place = (GlslPlace){lexer->file, lexer->line, (int)(lexer->at - lexer->line_start) + 1};
-    if (!*lexer->at) {
-        token.kind = TOKEN_END;
-        return token;
-    }
+    *token = (Token){.text = lexer->at, .length = 1, .kind = TOKEN_END, .spaced = spaced};
+    token->place = (GlslPlace){lexer->file, lexer->line, (int)(lexer->at - lexer->line_start) + 1};
+    if (!*lexer->at)
+        return;
     if (is_end(*lexer->at)) {
-        token.kind = TOKEN_LINE;
+        token->kind = TOKEN_LINE;
         next_line(lexer);
-        return token;
+        return;
     }
     if (is_digit(*lexer->at) || (*lexer->at == '.' && is_digit(lexer->at[1]))) {
-        token.length = lex_number(lexer->at, &token.kind);
+        token->length = lex_number(lexer->at, &token->kind);
     } else if (text_is_word(*lexer->at)) {
-        while (text_is_word(lexer->at[token.length]))
-            token.length++;
-        token.kind = TOKEN_NAME;
-        token.name = names_find(names, lexer->at, token.length);
+        int length = 1;
+        while (text_is_word(lexer->at[length]))
+            length++;
+        token->length = length;
+        token->kind = TOKEN_NAME;
+        token->name = names_find(names, lexer->at, length);
     } else {
-        token.length = lex_operator(lexer->at, &token.kind);
+        token->length = lex_operator(lexer->at, &token->kind);
     }
-    lexer->at += token.length;
-    return token;
+    lexer->at += token->length;
 }
 
 /* What a macro of a number expands to has no text, but is the number of its name. */

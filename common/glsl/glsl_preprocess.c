@@ -62,21 +62,26 @@ static Token end_token(const Preprocessor *all)
 }
 
 /* Not expanded yet. */
-static Token next_raw(Preprocessor *all)
+static void next_raw(Preprocessor *all, Token *token)
 {
     while (!all->failed && all->source_count) {
         Source *top = &all->sources[all->source_count - 1];
         if (top->at < top->tokens.count) {
-            const Token token = top->tokens.items[top->at++];
+            *token = top->tokens.items[top->at++];
             if (++all->expanded > all->tree->limits.tokens)
-                grown(all, token.place);
-            return token;
+                grown(all, token->place);
+            return;
         }
-        if (top->barrier)
-            return end_token(all);
+        if (top->barrier) {
+            *token = end_token(all);
+            return;
+        }
         pop(all);
     }
-    return all->failed ? end_token(all) : preprocess_text(all);
+    if (all->failed)
+        *token = end_token(all);
+    else
+        preprocess_text(all, token);
 }
 
 static void push_back(Preprocessor *all, Token token)
@@ -95,7 +100,8 @@ static Tokens expand_all(Preprocessor *all, Tokens tokens)
     Tokens expanded = {0};
     push(all, tokens, 0, true);
     for (;;) {
-        Token token = next_raw(all);
+        Token token;
+        next_raw(all, &token);
         if (token.kind == TOKEN_END)
             break;
         if (!expand(all, &token))
@@ -116,7 +122,8 @@ static int read_arguments(Preprocessor *all, Token name, Tokens *arguments)
 {
     int count = 1, depth = 0;
     for (;;) {
-        const Token token = next_raw(all);
+        Token token;
+        next_raw(all, &token);
         if (token.kind == TOKEN_END) {
             preprocess_fail(all, name.place, "the call of macro %.*s has no closing parenthesis",
                             name.length > 80 ? 80 : name.length, name.text);
@@ -204,7 +211,8 @@ static bool expand(Preprocessor *all, Token *token)
         push(all, body, index, false);
         return true;
     }
-    const Token after = next_raw(all);
+    Token after;
+    next_raw(all, &after);
     if (after.kind != '(') {
         if (after.kind != TOKEN_END)
             push_back(all, after);
@@ -246,16 +254,19 @@ bool preprocess(GlslTree *tree, Names *names, const char *text, Tokens *tokens,
     all.lexer = (Lexer){.at = text, .line_start = text, .line = 1};
     predefine_all(&all);
     for (;;) {
-        Token token = next_raw(&all);
-        if (token.kind != TOKEN_END && expand(&all, &token))
+        Token *token =
+            memory_add(&tokens->items, &tokens->count, &tokens->room, sizeof *tokens->items);
+        next_raw(&all, token);
+        if (token->kind != TOKEN_END && expand(&all, token)) {
+            tokens->count--;
             continue;
-        if (tokens->count >= tree->limits.tokens && token.kind != TOKEN_END)
-            preprocess_fail(&all, token.place, "the shader has more than %d words and signs",
+        }
+        if (tokens->count > tree->limits.tokens && token->kind != TOKEN_END)
+            preprocess_fail(&all, token->place, "the shader has more than %d words and signs",
                             tree->limits.tokens);
         if (all.failed)
-            token = end_token(&all);
-        tokens_add(tokens, token);
-        if (token.kind == TOKEN_END)
+            *token = end_token(&all);
+        if (token->kind == TOKEN_END)
             break;
     }
     while (all.source_count)

@@ -73,8 +73,9 @@ typedef struct Lexer {
     int comment;
 } Lexer;
 
-/* The next token; names are found in `names`. Lines end with TOKEN_LINE. */
-Token lexer_next(Lexer *lexer, Names *names);
+/* The next token; names are found in `names`. Lines end with TOKEN_LINE. It is written where it
+ * stays: reading bytes just written as a whole takes as long as finding the next token. */
+void lexer_next(Lexer *lexer, Names *names, Token *token);
 
 /* Makes tokens of a text. False: it is in error after these; `message` says how. */
 typedef struct Tokens {
@@ -153,6 +154,6 @@ void preprocess_fail(Preprocessor *all, GlslPlace place, const char *format, ...
 Tokens preprocess_line(Preprocessor *all, Tokens line);
 
 /* The next token of the text itself, after its directives. */
-Token preprocess_text(Preprocessor *all);
+void preprocess_text(Preprocessor *all, Token *token);
 
 #endif

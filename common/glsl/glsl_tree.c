@@ -226,7 +226,7 @@ static void add_message(Parser *parser, GlslPlace place, const char *format, va_
     GlslTree *tree = parser->tree;
     if (parser->stopped)
         return;
-    parser->stopped = tree->message_count + 1 == GLSL_MESSAGES;
+    parser->stopped = tree->limits.silent || tree->message_count + 1 == GLSL_MESSAGES;
     GlslMessage *message = &tree->messages[tree->message_count++];
     message->place = place;
     vsnprintf(message->text, sizeof message->text, format, arguments);

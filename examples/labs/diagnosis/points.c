@@ -216,7 +216,8 @@ void points_close(Points *points)
 
 static bool is_output(const GlslVariable *variable)
 {
-    return variable->storage == GLSL_VARYING || strcmp(variable->name, "gl_Position") == 0;
+    return variable->storage == GLSL_VARYING ||
+           (variable->storage == GLSL_OUT && strcmp(variable->name, "gl_Position") == 0);
 }
 
 /* Drivers do not count what is not used, but each point keeps it. */
@@ -231,8 +232,10 @@ static bool has_few_outputs(PointShader *shader)
 
 bool point_shader_open(PointShader *shader, const char *text, GlslStage stage)
 {
+    GlslLimits limits = GLSL_LIMITS;
+    limits.silent = true;
     *shader = (PointShader){.setting = -1};
-    shader->tree = glsl_parse(text, stage, NULL);
+    shader->tree = glsl_parse(text, stage, &limits);
     if (shader->tree->message_count == 0 && glsl_check_whole(shader->tree)) {
         shader->code = glsl_compile(shader->tree);
         if (!shader->code->message.text[0] && has_few_outputs(shader)) {
@@ -448,6 +451,8 @@ static void set_inputs(const Points *points, const PointShader *vertex, PointSha
         double *to = fragment->run->registers + variable->first;
         if (variable->storage == GLSL_VARYING) {
             interpolate(points, vertex, number, variable->name, to, variable->count);
+        } else if (variable->storage != GLSL_IN) {
+            continue;
         } else if (strcmp(variable->name, "gl_FragCoord") == 0) {
             to[0] = (clip[0] / clip[3] + 1) / 2 * setting->width;
             to[1] = (clip[1] / clip[3] + 1) / 2 * setting->height;
