@@ -86,6 +86,7 @@ static bool present(Viewer *viewer, const Image *image, Message *message)
         done = canvas_present_image(image, from_below, message);
     else
         canvas_present(viewer->canvas, from_below);
+    done = done && viewer_before_present(viewer, from_below, message);
     glEnable(GL_SCISSOR_TEST);
     glClearColor(0, 0, 0, 1);
     for (int i = 0; i < 3; i++) {
@@ -351,6 +352,7 @@ bool viewer_run(const Example *example, Canvas *canvas, const Options *options,
     viewer_pixel_close(&viewer.pixel);
     viewer_panel_close(&viewer.panel);
     image_close(&viewer.picture.image);
+    image_close(&viewer.before);
     shader_reload_close(&viewer.reload);
     return done;
 }

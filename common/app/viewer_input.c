@@ -176,6 +176,9 @@ static void type(Viewer *viewer, unsigned character)
     case 's':
         save(viewer);
         break;
+    case 'b':
+        viewer_before_toggle(viewer);
+        break;
     case 'r':
         put_back(viewer);
         viewer_renew(viewer);

@@ -23,6 +23,7 @@ static const PanelHelp HELP[] = {
     {"left, right", "a picture back, forward"},
     {"up, down", "a second forward, back"},
     {"s", "saves the picture"},
+    {"b", "before and after"},
     {"r", "starts again"},
     {"f", "the whole screen, and back"},
     {"p", "the panel"},

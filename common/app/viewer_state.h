@@ -190,6 +190,8 @@ typedef struct Viewer {
     Message unmade;      /* why renderer_renew failed */
     Picture picture;     /* read back, to be saved or retouched */
     Message trouble;     /* why drawing failed */
+    Image before;        /* as it was, to be compared; without pixels: nothing is */
+    double division;     /* it is left of this, of the picture's width */
 } Viewer;
 
 /* Whether there is a picture to draw. */
@@ -234,5 +236,11 @@ void viewer_pixel_choose(Viewer *viewer, const PanelResult *result);
 const Image *viewer_pixel_image(const Viewer *viewer);
 
 void viewer_pixel_close(ViewerPixel *pixel);
+
+/* Keeps the picture that is shown, or forgets it. */
+void viewer_before_toggle(Viewer *viewer);
+
+/* Over the picture, whose place this is in framebuffer 0; nothing if none is kept. */
+bool viewer_before_present(Viewer *viewer, const int place[4], Message *message);
 
 #endif

@@ -817,6 +817,29 @@ class Panel(Case):
         shown.click(526, y)
         wait_for(lambda: sphere() == before, "the picture again")
 
+    def test_before_and_after(self):
+        """Left of the middle, or of the pointer, as it was when b was pressed; until b is pressed again."""
+        shown = self.show("-s", "400x300", paused=True)
+        before = shown.save().pixels
+        shown.key("b", "Up")
+        after = shown.save().pixels
+        shown.key("x")  # does nothing, but that the notice has been read
+        part = lambda pixels, x, width: crop(pixels, 400, (x, 0, width, 120))
+        self.assertNotEqual(*(part(pixels, 120, 80) for pixels in (before, after)))
+        self.assertNotEqual(*(part(pixels, 201, 80) for pixels in (before, after)))
+
+        def divided(at):
+            seen = self.visible(shown)
+            return part(seen, 0, at) == part(before, 0, at) and part(seen, at + 1, 399 - at) == part(after, at + 1, 399 - at)
+
+        wait_for(lambda: divided(200), "two halves")
+        x, y, _, _ = shown.place()
+        self.server.xdotool("mousemove", x + 150, y + 250)  # which the server draws below what is looked at
+        wait_for(lambda: divided(150), "a line at the pointer")
+        self.server.xdotool("mousemove", *AWAY)
+        shown.key("b")
+        wait_for(lambda: self.visible(shown) == after, "the picture alone")
+
     def test_letters_grow_and_the_panel_with_them(self):
         shown = self.show("-s", "300x200", program=SCENE, paused=True)
         shown.key("p")
