@@ -379,6 +379,19 @@ static bool is_folder(const char *path)
     return stat(path, &is) == 0 && S_ISDIR(is.st_mode);
 }
 
+static bool judge(Regression *regression, RegressionPicture *of, Canvas *canvas,
+                  const Options *options, Message *message)
+{
+    bool same = false; /* unless it cannot be read */
+    if (!regression_compare(regression, of->now, &same, message) || same)
+        return same;
+    if (regression_needs_driver(regression))
+        canvas_close(canvas);
+    return (canvas->context || (regression_measure(regression, options->canvas.backend, message) &&
+                                open_canvas(canvas, options, message))) &&
+           regression_judge(regression, of, message);
+}
+
 /* --verify DIR; *code is EXIT_FAILED if a pixel cannot be. */
 static bool verify_folder(const Selection *selection, const Options *options, int *code,
                           Message *message)
@@ -386,17 +399,16 @@ static bool verify_folder(const Selection *selection, const Options *options, in
     Regression *regression;
     Canvas canvas = {0};
     Picture *picture = memory_new(1, sizeof *picture);
-    bool done =
-        regression_open(&regression, verified, options->output_given ? options->output : "changed",
-                        options->canvas.backend, message) &&
-        open_canvas(&canvas, options, message);
+    bool done = regression_open(&regression, verified,
+                                options->output_given ? options->output : "changed", message) &&
+                open_canvas(&canvas, options, message);
     for (int i = 0; i < selection->count && done; i++) {
         const Example *example = selection->examples[i];
         RegressionPicture of = {.now = picture, .canvas = &canvas};
         if (!options->names[0] && !regression_has(regression, example->name))
             continue;
         done = draw_one(example, &canvas, options, picture, &of, message) &&
-               regression_judge(regression, &of, message);
+               judge(regression, &of, &canvas, options, message);
         capture_close(&of.capture);
         shader_files_close(&of.files);
     }

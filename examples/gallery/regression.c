@@ -15,25 +15,34 @@
 struct Regression {
     const char *folder, *output;
     TemplateValues *page;
-    Arithmetics found;
+    Arithmetics found; /* its renderer is "" until the driver is measured */
     Picture before;
     int wrong, moved, same, unknown;
 };
 
-bool regression_open(Regression **opened, const char *folder, const char *output,
-                     const CanvasBackend *backend, Message *message)
+bool regression_open(Regression **opened, const char *folder, const char *output, Message *message)
 {
     struct stat is, report;
-    Meter meter;
     *opened = NULL;
     if (stat(folder, &is) == 0 && stat(output, &report) == 0 && is.st_ino == report.st_ino &&
         is.st_dev == report.st_dev)
         return message_set(message, "%s: has the earlier pictures; write the report elsewhere",
                            output);
+    *opened = memory_new(1, sizeof **opened);
+    **opened = (Regression){.folder = folder, .output = output, .page = template_values()};
+    return true;
+}
+
+bool regression_needs_driver(const Regression *regression)
+{
+    return !regression->found.renderer[0];
+}
+
+bool regression_measure(Regression *regression, const CanvasBackend *backend, Message *message)
+{
+    Meter meter;
     if (!meter_open(&meter, backend, message))
         return false;
-    Regression *regression = *opened = memory_new(1, sizeof *regression);
-    *regression = (Regression){.folder = folder, .output = output, .page = template_values()};
     const bool done = arithmetic_measure(&meter, 1 << 17, &regression->found, message);
     meter_close(&meter);
     return done;
@@ -56,6 +65,18 @@ static bool read_before(Regression *regression, const char *name, Message *messa
     snprintf(file, sizeof file, "%s.png", name);
     return output_path(before->path, regression->folder, file, message) &&
            picture_read(before, message);
+}
+
+bool regression_compare(Regression *regression, const Picture *picture, bool *same,
+                        Message *message)
+{
+    const Image *now = &picture->image, *before = &regression->before.image;
+    if (!read_before(regression, picture->title, message))
+        return false;
+    *same = before->width == now->width && before->height == now->height &&
+            memcmp(before->pixels, now->pixels, image_row_size(now) * (size_t)now->height) == 0;
+    regression->same += *same;
+    return true;
 }
 
 bool regression_has(const Regression *regression, const char *name)
@@ -292,7 +313,7 @@ static bool judge(Regression *regression, const RegressionPicture *of, Proof *pr
     return proof_of_capture(proof, message) && moved_judge(moved, &question, message);
 }
 
-static bool say_picture(Regression *regression, RegressionPicture *of, Message *message)
+bool regression_judge(Regression *regression, RegressionPicture *of, Message *message)
 {
     const Image *before = &regression->before.image;
     const Picture *now = of->now;
@@ -341,18 +362,6 @@ static bool say_picture(Regression *regression, RegressionPicture *of, Message *
     free(moved.kinds);
     proof_close(&proof);
     return done;
-}
-
-bool regression_judge(Regression *regression, RegressionPicture *of, Message *message)
-{
-    const Image *now = &of->now->image, *before = &regression->before.image;
-    if (!read_before(regression, of->now->title, message))
-        return false;
-    const bool same =
-        before->width == now->width && before->height == now->height &&
-        memcmp(before->pixels, now->pixels, image_row_size(now) * (size_t)now->height) == 0;
-    regression->same += same;
-    return same || say_picture(regression, of, message);
 }
 
 bool regression_end(Regression *regression, int *code, Message *message)

@@ -11,11 +11,15 @@
 
 typedef struct Regression Regression;
 
-/* `folder`: of the earlier pictures, NAME.png; `output`: of the report. Measures the driver, so no
- * canvas is open. To be closed whatever it returns. */
+/* `folder`: of the earlier pictures, NAME.png; `output`: of the report. To be closed whatever it
+ * returns. */
 bool regression_open(Regression **regression, const char *folder, const char *output,
-                     const CanvasBackend *backend, Message *message);
+                     Message *message);
 void regression_close(Regression *regression); /* NULL is fine */
+
+/* Before the first judgement the driver is measured, for seconds, while no canvas is open. */
+bool regression_needs_driver(const Regression *regression);
+bool regression_measure(Regression *regression, const CanvasBackend *backend, Message *message);
 
 /* Whether there is an earlier picture of that name. */
 bool regression_has(const Regression *regression, const char *name);
@@ -28,7 +32,11 @@ typedef struct RegressionPicture {
     ShaderFiles files;
 } RegressionPicture;
 
-/* Compares it with the earlier one; what has changed is a line on standard output and in the
+/* Reads the earlier picture. */
+bool regression_compare(Regression *regression, const Picture *picture, bool *same,
+                        Message *message);
+
+/* Of a picture that is not the same: what has changed is a line on standard output and in the
  * report. `of->capture` is empty then. */
 bool regression_judge(Regression *regression, RegressionPicture *of, Message *message);
 

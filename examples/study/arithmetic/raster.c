@@ -50,21 +50,21 @@ static double area_of(const double a[2], const double b[2], const double c[2])
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/* The exact value of a varying at a point (OpenGL ES 2.0 specification, section 3.5.1): weights
- * a / w, whose sum makes them 1. */
-static double value_at(const Canvas *canvas, const Corner corners[3], int channel,
-                       const double point[2])
+/* The exact values of a varying at a point (OpenGL ES 2.0 specification, section 3.5.1): weights
+ * a / w, whose sum makes them 1. `at`: the corners' window coordinates. */
+static void values_at(const Corner corners[3], double at[3][2], const double point[2],
+                      double values[4])
 {
-    double at[3][2], sum = 0, weights = 0;
-    for (int i = 0; i < 3; i++)
-        window_of(canvas, &corners[i], at[i]);
+    double sums[4] = {0}, weights = 0;
     for (int i = 0; i < 3; i++) {
         const double weight =
             area_of(at[(i + 1) % 3], at[(i + 2) % 3], point) / (double)corners[i].position[3];
-        sum += weight * (double)corners[i].value[channel];
+        for (int c = 0; c < 4; c++)
+            sums[c] += weight * (double)corners[i].value[c];
         weights += weight;
     }
-    return sum / weights;
+    for (int c = 0; c < 4; c++)
+        values[c] = sums[c] / weights;
 }
 
 static Corner random_corner(Random *random, const Canvas *canvas, double x, double y, double w)
@@ -102,27 +102,31 @@ typedef struct Cell {
 /* The largest error in what was drawn, in raster_units. */
 static double error_of(const Canvas *canvas, const Cell *cell, int bits, const float *pixels)
 {
-    double largest = 0;
+    double largest = 0, at[3][2], units[4], exact[4];
     RasterNumber numbers[8]; /* x, y, z, w, and what it hands over */
     RasterTriangle triangle;
     for (int k = 0; k < 8; k++)
         for (int i = 0; i < 3; i++) {
-            const Corner *at = &cell->corners[i];
+            const Corner *of = &cell->corners[i];
             const double number =
-                (double)(k < 4 ? at->position[k] : at->value[k - 4]) - (i ? numbers[k][0].low : 0);
+                (double)(k < 4 ? of->position[k] : of->value[k - 4]) - (i ? numbers[k][0].low : 0);
             numbers[k][i] = (GlslRange){number, number};
         }
     for (int k = 0; k < 3; k++)
         memcpy(triangle.place[k], numbers[k + k / 2], sizeof *numbers);
     raster_triangle(&triangle, (double[]){canvas->width / 2., canvas->height / 2.}, bits);
+    for (int i = 0; i < 3; i++)
+        window_of(canvas, &cell->corners[i], at[i]);
+    for (int c = 0; c < 4; c++)
+        units[c] = raster_units(&triangle, numbers[4 + c]);
     for (int i = 0; i < cell->size * cell->size; i++) {
         const int x = cell->x + i % cell->size, y = cell->y + i / cell->size;
         const float *pixel = pixel_of(canvas, pixels, x, y);
-        for (int c = 0; c < 4 && pixel[3] != 0; c++) {
-            const double exact = value_at(canvas, cell->corners, c, (double[]){x + 0.5, y + 0.5});
-            largest = fmax(largest, fabs((double)pixel[c] - exact) * 0x1p24 /
-                                        raster_units(&triangle, numbers[4 + c]));
-        }
+        if (pixel[3] == 0)
+            continue;
+        values_at(cell->corners, at, (double[]){x + 0.5, y + 0.5}, exact);
+        for (int c = 0; c < 4; c++)
+            largest = fmax(largest, fabs((double)pixel[c] - exact[c]) * 0x1p24 / units[c]);
     }
     return largest;
 }
