@@ -531,6 +531,8 @@ class Holes(Labs):
             (7, "#define A __VER\\\nSION__\n#if A == 100", "#else", "__VERSION__"),
             (2, "#ifdef GL_ES\n#define A\n#endif\n#ifndef A\n#else", "#endif\n#ifndef A", "GL_ES"),
             (4, "#if 1\n#define A (1.0 - gl_PointCoord.x)", "#else", "gl_PointCoord"),
+            (5, "#ifdef GL_ES\nconst float k = 1.0;\n#else\nconst float k = 2.0;\n#endif\n#if 1", "#else", "GL_ES"),
+            (5, "#ifdef GL_ES\nconst float k = 1.0;\n#endif\n#if 1", "#else", "GL_ES"),
         ):
             texts = edited(lab)
             for name in texts:
@@ -543,7 +545,9 @@ class Holes(Labs):
         texts["lab05.frag"] = texts["lab05.frag"].replace(
             mistakes.HIGHP,
             "#ifdef GL_ES\n#ifdef GL_FRAGMENT_PRECISION_HIGH\n#define P highp // __VERSION__\n"
-            "#else\n#define P mediump\n#endif\nprecision P float;\n#endif\n",
+            "#else\n#define P mediump\n#endif\nprecision P float;\n#endif\n"
+            "#ifdef GL_FRAGMENT_PRECISION_HIGH\nconst float unused = 1.0;\n"
+            "#else\nconst mediump float unused = 1.0;\n#endif\n",
         )
         self.assertEqual(check_texts(5, texts)["verdict"], "right")
 

@@ -29,7 +29,8 @@ void change_take_text(const Derivation *all, const Found *found, VerdictMistake 
     const char *line = node->place.file == 0 ? submission_file(all->files, mistake->file) : NULL;
     for (int i = 1; i < node->place.line && line; i++)
         line = strchr(line, '\n') ? strchr(line, '\n') + 1 : NULL;
-    for (const char *at = line; at && *at && *at != '\n' && !mistake->line; at++) {
+    for (const char *at = mutation->moves ? NULL : line; at && *at && *at != '\n' && !mistake->line;
+         at++) {
         const size_t length =
             at > line && text_is_word(at[-1]) && text_is_word(*at) ? 0 : match(at, mutation->was);
         if (length == 0 || length >= sizeof mistake->text ||

@@ -297,6 +297,12 @@ static void find_place(Derivation *all, const Found *found)
     free(values);
 }
 
+/* What is there, as a sentence says it. */
+static const char *was_text(const Mutation *mutation)
+{
+    return mutation->moves ? "where it is" : mutation->was;
+}
+
 /* After a colon the right program's words become the submission's, if the place is known; of one of
  * two mistakes it is not. */
 static void add(const Mutation *mutation, const char *place, bool alone, double sure,
@@ -327,7 +333,7 @@ static void say_mending(Derivation *all, const Found *found, Verdict *verdict)
              all->mended_twice ? " and the other change" : "");
     snprintf(sentence, sizeof sentence, "%s%sIt draws what is right with %s instead of %s%s.",
              known ? best->sentence : "", known && best->sentence[0] ? " " : "",
-             mending->by[0] ? mending->by : "nothing", mending->was,
+             mending->by[0] ? mending->by : "nothing", was_text(mending),
              all->mended_twice ? ", once the other mistake is mended, too" : "");
     change_take_text(all, found,
                      verdict_add_mistake(verdict, mending->mends, sentence, look,

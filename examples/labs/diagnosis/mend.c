@@ -140,15 +140,18 @@ static bool is_there(Derivation *all, const Found *found, PointShader *const men
 }
 
 /* Below 0: a is the better change: right to the last digit, and not by a formula instead of all;
- * where the first wrong value is; of the likelier rule; the earlier one; the smaller one. */
+ * where the first wrong value is; without an operand twice; of the likelier rule; the earlier one;
+ * the smaller one. */
 static int compare(const Derivation *all, const Found *a, const Found *b)
 {
     const GlslPlace *place = &all->own[a->stage].tree->nodes[a->mutation.node].place;
     const GlslPlace *other = &all->own[b->stage].tree->nodes[b->mutation.node].place;
     const bool exact = a->apart <= DERIVATION_EQUAL && !a->mutation.formula;
     const bool other_exact = b->apart <= DERIVATION_EQUAL && !b->mutation.formula;
-    return exact != other_exact                   ? (int)other_exact - (int)exact
-           : a->there != b->there                 ? (int)b->there - (int)a->there
+    return exact != other_exact   ? (int)other_exact - (int)exact
+           : a->there != b->there ? (int)b->there - (int)a->there
+           : a->mutation.doubled != b->mutation.doubled
+               ? (int)a->mutation.doubled - (int)b->mutation.doubled
            : a->mutation.rank != b->mutation.rank ? a->mutation.rank - b->mutation.rank
            : a->stage != b->stage                 ? (int)a->stage - (int)b->stage
            : place->line != other->line

@@ -2,9 +2,11 @@
  * replaces the mark. So the parser checks the types, and a rule is one line. In a rule $0 is the
  * node's own text, $1 to $3 are its operands, $4 what its variable begins with, $5 the condition of
  * an `if` right before the statement, $6 and $7 those of the first, $8 and $9 those of the second,
- * # is a number, @ any name of the rule's type, ~ any of a float, and % the node with two
- * exchanged. */
+ * # is a number, @ any name of the rule's type, ~ any of a float; of a rule with forms % is the
+ * form's text, and @ and # its names. */
 #include "labs/diagnosis/mutation.h"
+
+#include "labs/diagnosis/mutation_forms.h"
 
 #include "base/memory.h"
 #include "base/text.h"
@@ -14,7 +16,13 @@
 #include <string.h>
 
 /* Of rules for all expressions of a type. */
-enum { ANY_FLOAT = 100, ANY_VEC3, ANY_NAME, ANY_BOTH, ANY_VEC2, ANY_OPERATION };
+enum { ANY_FLOAT = 100, ANY_VEC3, ANY_NAME, ANY_BOTH, ANY_VEC2 };
+
+/* Of rules whose texts code makes: see mutation_forms.h. */
+enum { EXCHANGE = 200, BRACKET, UNBRACKET, SPREAD, LOGIC, TURNS, BEGINS, OTHER_LIGHT, MOVE };
+static FormsEach *const EACH[] = {forms_exchanges, forms_brackets, forms_unbrackets,
+                                  forms_spreads,   forms_logic,    forms_turns,
+                                  forms_begins,    forms_lights,   forms_moves};
 
 typedef struct Rule {
     int kind, op; /* `op`: of a built-in function its number, -1: any; of one component: 1 for
@@ -36,7 +44,6 @@ enum {
                    }) /
                    sizeof(Rule),
     MAX_NAMES = 48,
-    MAX_LEAVES = 12,
     NAME_SIZE = 72,
     OPERANDS = 10
 };
@@ -49,12 +56,12 @@ typedef struct Maker {
     void *context;
     bool ended;
     const char *name, *number;    /* that are tried */
-    char exchanged[512];          /* the node's text with two leaves exchanged */
+    const Form *form;             /* of a rule that has forms */
     char *before, *after;         /* the text around the node */
     char operands[OPERANDS][512]; /* the node's text, those of its children, what its variable
                                      begins with, the condition before it; from 6 on: those of the
                                      children of its first and of its second child */
-    int node, variant;
+    int node, variant, rule;
     const Mutation *only; /* NULL: all */
     unsigned *puts;       /* of what was tried at the node, the hashes */
     int put_count, put_room;
@@ -192,7 +199,7 @@ static void fill(const Maker *maker, const char *form, bool grouped, char *text,
         else if (*at == '#')
             put = maker->number;
         else if (*at == '%')
-            put = maker->exchanged;
+            put = maker->form->text;
         if (!put) {
             text[used++] = *at;
             text[used] = '\0';
@@ -225,6 +232,19 @@ static void put_exchange(Mutation *mutation)
     snprintf(mutation->mends, sizeof mutation->mends, "%.96s for %.96s", was, by);
 }
 
+/* Whether a name is in another operand of the operation around the node. */
+static bool stands_beside(const Maker *maker, const char *name)
+{
+    const GlslNode *nodes = maker->tree->nodes;
+    bool found = false;
+    for (int i = nodes[forms_parent(maker->tree, maker->node)].first; i; i = nodes[i].next) {
+        char text[512];
+        glsl_expression_text(maker->tree, i, text, sizeof text);
+        found |= i != maker->node && text_count_word(text, name) > 0;
+    }
+    return found;
+}
+
 static void make(Maker *maker, int rule)
 {
     Mutation mutation = {.node = maker->node,
@@ -252,21 +272,27 @@ static void make(Maker *maker, int rule)
     /* An expression's statement is followed by its semicolon; within one anything is grouped. */
     const bool whole = statement || node->kind == GLSL_ASSIGN || !is_compound(by);
     char *put = memory_format(jump ? "%s;" : whole ? "%s" : "(%s)", by);
-    char *text = memory_format("%s%s%s", maker->before, put, maker->after);
+    char *text = maker->form && maker->form->whole
+                     ? memory_text(maker->form->whole)
+                     : memory_format("%s%s%s", maker->before, put, maker->after);
+    mutation.moves = maker->form && maker->form->whole;
     mutation.put = put;
+    mutation.doubled = strcmp(RULES[rule].by, "@") == 0 && stands_beside(maker, maker->name);
     maker->ended = !maker->take(maker->context, &mutation, text);
     free(text);
     free(put);
 }
 
-/* What may stand for a value of this type: other variables, their elements and their colours. */
-static int names_of(const GlslTree *tree, int type, char names[MAX_NAMES][NAME_SIZE])
+/* What may stand for a value of this type: other variables, their elements and their colours. A
+ * uniform that the text lacks has no line. */
+static int names_of(const GlslTree *tree, int type, bool declared, char names[MAX_NAMES][NAME_SIZE])
 {
     static const char *const FORMS[] = {"%s", "%s[0]", "%s[1]", "%s[i]", "%s.rgb"};
     int count = 0;
     for (int i = 1; i < tree->symbol_count; i++) {
         const GlslSymbol *symbol = &tree->symbols[i];
         if (symbol->kind != GLSL_VARIABLE || symbol->built_in || !symbol->name[0] ||
+            (declared && !symbol->place.line) ||
             (tree->stage == GLSL_VERTEX && symbol->storage == GLSL_VARYING)) /* not set yet */
             continue;
         const bool element = tree->types[symbol->type].element == type;
@@ -280,77 +306,24 @@ static int names_of(const GlslTree *tree, int type, char names[MAX_NAMES][NAME_S
     return count;
 }
 
-static bool is_name(const GlslNode *node)
+static void take_form(void *context, const Form *form)
 {
-    return node->kind == GLSL_NAME || node->kind == GLSL_INDEX || node->kind == GLSL_SWIZZLE;
-}
-
-/* Names, elements and components below a node. */
-typedef struct Leaves {
-    int nodes[MAX_LEAVES], count;
-    char texts[MAX_LEAVES][NAME_SIZE];
-} Leaves;
-
-static void take_leaves(const GlslTree *tree, int node, Leaves *leaves)
-{
-    if (is_name(&tree->nodes[node]) && leaves->count < MAX_LEAVES) {
-        leaves->nodes[leaves->count] = node;
-        glsl_expression_text(tree, node, leaves->texts[leaves->count++], NAME_SIZE);
+    Maker *maker = context;
+    maker->variant++;
+    if (maker->ended || (maker->only && maker->only->variant != maker->variant))
         return;
-    }
-    for (int i = tree->nodes[node].first; i; i = tree->nodes[i].next)
-        take_leaves(tree, i, leaves);
+    maker->form = form;
+    maker->name = form->name;
+    maker->number = form->other;
+    make(maker, maker->rule);
+    maker->form = NULL;
 }
 
-/* Whether the text stands once only. */
-static bool is_sole(const Leaves *leaves, int leaf)
+static void apply_forms(Maker *maker, int rule)
 {
-    int count = 0;
-    for (int i = 0; i < leaves->count; i++)
-        count += strcmp(leaves->texts[i], leaves->texts[leaf]) == 0;
-    return count == 1;
-}
-
-static void exchange(GlslTree *tree, int a, int b)
-{
-    const GlslNode was = tree->nodes[a];
-    tree->nodes[a] = tree->nodes[b];
-    tree->nodes[b] = was;
-    tree->nodes[b].next = tree->nodes[a].next;
-    tree->nodes[a].next = was.next;
-}
-
-/* With a leaf of the first operand and one of the others exchanged; not both operands of a sum or
- * product. What stands more than once is rather one taken for another. */
-static void apply_exchanges(Maker *maker, int rule)
-{
-    GlslTree *tree = maker->tree;
-    const GlslNode *node = &tree->nodes[maker->node];
-    const bool commutes = node->kind == GLSL_BINARY && node->op <= GLSL_MULTIPLY;
-    const int second = tree->nodes[node->first].next;
-    Leaves all = {.count = 0};
-    take_leaves(tree, node->first, &all);
-    const int first = all.count;
-    for (int i = second; i; i = tree->nodes[i].next)
-        take_leaves(tree, i, &all);
     maker->variant = 0;
-    for (int i = 0; i < first; i++) {
-        for (int k = first; k < all.count && !maker->ended; k++) {
-            const int a = all.nodes[i], b = all.nodes[k];
-            char name[2 * NAME_SIZE + 8];
-            maker->variant++;
-            if (tree->nodes[a].type != tree->nodes[b].type || !is_sole(&all, i) ||
-                !is_sole(&all, k) || (commutes && a == node->first && b == second) ||
-                (maker->only && maker->only->variant != maker->variant))
-                continue;
-            exchange(tree, a, b);
-            glsl_expression_text(tree, maker->node, maker->exchanged, sizeof maker->exchanged);
-            exchange(tree, a, b);
-            snprintf(name, sizeof name, "%s and %s", all.texts[i], all.texts[k]);
-            maker->name = name;
-            make(maker, rule);
-        }
-    }
+    maker->rule = rule;
+    EACH[RULES[rule].kind - EXCHANGE](maker->tree, maker->node, take_form, maker);
 }
 
 /* With each name and each number that the rule has. */
@@ -360,7 +333,8 @@ static void apply(Maker *maker, int rule)
     const bool scalar = strchr(RULES[rule].by, '~'), named = scalar || strchr(RULES[rule].by, '@'),
                numbered = strchr(RULES[rule].by, '#');
     const int type = scalar ? GLSL_FLOAT : maker->tree->nodes[maker->node].type;
-    const int name_count = named ? names_of(maker->tree, type, names) : 1;
+    const int name_count =
+        named ? names_of(maker->tree, type, strcmp(RULES[rule].by, "@") != 0, names) : 1;
     for (int i = 0; i < name_count; i++) {
         for (int k = 0; k < (numbered ? maker->number_count : 1) && !maker->ended; k++) {
             if (numbered) {
@@ -395,14 +369,11 @@ static bool matches(const GlslTree *tree, const GlslNode *node, const Rule *rule
         return node->type == GLSL_VEC3 && !literal;
     case ANY_VEC2:
         return node->type == GLSL_VEC2 && !literal;
-    case ANY_OPERATION:
-        return node->kind == GLSL_BINARY ||
-               (node->kind >= GLSL_CALL && node->kind <= GLSL_CONSTRUCT);
     case ANY_BOTH:
         return (node->type == GLSL_VEC3 || node->type == GLSL_FLOAT) && !literal;
     case ANY_NAME:
         return rule->op == GLSL_BOOL ? node->type == GLSL_BOOL && !literal
-               : rule->op            ? node->type == rule->op && is_name(node)
+               : rule->op            ? node->type == rule->op && forms_is_name(node)
                                      : node->kind == GLSL_NAME;
     default:
         break;
@@ -429,8 +400,9 @@ static void mutate(Maker *maker, int node, int mark)
         read_operands(maker);
         for (int i = 0; i < RULE_COUNT && !maker->ended; i++)
             if ((!maker->only || maker->only->rank == i) &&
-                matches(maker->tree, &maker->tree->nodes[node], &RULES[i]))
-                (RULES[i].kind == ANY_OPERATION ? apply_exchanges : apply)(maker, i);
+                (RULES[i].kind >= EXCHANGE ||
+                 matches(maker->tree, &maker->tree->nodes[node], &RULES[i])))
+                (RULES[i].kind >= EXCHANGE ? apply_forms : apply)(maker, i);
     }
     maker->put_count = 0;
     free(maker->before);

@@ -25,6 +25,8 @@ typedef struct Mutation {
     bool likely;              /* of mutation_likely.def */
     bool formula;             /* nothing of what was there is left */
     bool general;             /* its text has no number and no name that was tried */
+    bool doubled;             /* a name that is another operand already */
+    bool moves;               /* its statement is put elsewhere, so that `put` is not all of it */
 } Mutation;
 
 /* Gets each mutant's text. False: no more. */

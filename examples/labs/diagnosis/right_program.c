@@ -29,7 +29,25 @@ static bool normalizes(const GlslTree *tree, int node)
     return found;
 }
 
-char *right_undeclared(const Points *points, const GlslTree *tree)
+/* A name that may be put into the tree, as if it were declared. */
+static void add_symbol(GlslTree *tree, const BindingValue *value, int type)
+{
+    int array = value->count > 1 ? GLSL_TYPES : 0;
+    while (array && array < tree->type_count &&
+           (tree->types[array].element != type || tree->types[array].length != value->count))
+        array++;
+    if (array == tree->type_count)
+        *(GlslType *)memory_add(&tree->types, &tree->type_count, &tree->type_room,
+                                sizeof(GlslType)) =
+            (GlslType){.name = tree->types[type].name, .element = type, .length = value->count};
+    *(GlslSymbol *)memory_add(&tree->symbols, &tree->symbol_count, &tree->symbol_room,
+                              sizeof(GlslSymbol)) = (GlslSymbol){.name = value->name,
+                                                                 .kind = GLSL_VARIABLE,
+                                                                 .storage = GLSL_UNIFORM,
+                                                                 .type = array ? array : type};
+}
+
+char *right_undeclared(const Points *points, GlslTree *tree)
 {
     char *text = memory_text("");
     const PointSetting *setting = &points->settings[0];
@@ -40,11 +58,10 @@ char *right_undeclared(const Points *points, const GlslTree *tree)
             known |= strcmp(tree->symbols[k].name, value->name) == 0;
         if (known)
             continue;
-        char *more = memory_format("%suniform highp %s %s%s;\n", text,
-                                   value->size == 16  ? "mat4"
-                                   : value->size == 1 ? "float"
-                                                      : "vec3",
+        const int type = value->size == 16 ? GLSL_MAT4 : value->size == 1 ? GLSL_FLOAT : GLSL_VEC3;
+        char *more = memory_format("%suniform highp %s %s%s;\n", text, tree->types[type].name,
                                    value->name, value->count > 1 ? "[2]" : "");
+        add_symbol(tree, value, type);
         free(text);
         text = more;
     }

@@ -174,7 +174,7 @@ static bool is_curve_of_shadow(const Derivation *all, const Mutation *mutation)
 static bool is_left_out(const Search *search, const Mutation *mutation)
 {
     const bool added = !mutation->general && strstr(mutation->by, mutation->was);
-    return (search->likely && !mutation->likely) || (!search->mends && added) ||
+    return mutation->moves || (search->likely && !mutation->likely) || (!search->mends && added) ||
            (search->mends && mend_is_given(search->all, mutation)) ||
            is_curve_of_shadow(search->all, mutation);
 }

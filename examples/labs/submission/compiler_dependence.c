@@ -1,11 +1,12 @@
 /* Reads a text's directives line by line with a stack of conditions. A macro that depends on an
- * allowed one is as dependent; lines within such a condition may only set precisions. Compilers
- * differ in whether a backslash joins lines, so both readings have to pass. */
+ * allowed one is as dependent; the branches of such a condition may only differ in precisions.
+ * Compilers differ in whether a backslash joins lines, so both readings have to pass. */
 #include "labs/submission/submission.h"
 
 #include "base/memory.h"
 #include "base/text.h"
 
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -66,9 +67,17 @@ static const char *const PRECISIONS[] = {"lowp", "mediump", "highp", NULL};
 static const char *const UNREAD[] = {"extension", "version", "pragma", "line", "error", NULL};
 static const char *const ALLOWED[] = {"GL_ES", "GL_FRAGMENT_PRECISION_HIGH", NULL};
 
+/* A condition, and what its branches have but precisions. */
+typedef struct Condition {
+    bool restricted; /* it, or one around it, names an allowed macro */
+    bool compared, otherwise;
+    uint64_t first, now; /* hashes: of its first branch, and of what is read */
+    char token[NAME_SIZE];
+} Condition;
+
 /* What a text depends on so far. */
 typedef struct Reader {
-    bool restricted[MAX_DEPTH + 1]; /* by depth: within a condition that names an allowed macro */
+    Condition conditions[MAX_DEPTH + 1]; /* by depth */
     int depth;
     char names[MAX_NAMES][NAME_SIZE]; /* macros that were defined there */
     int name_count;
@@ -105,33 +114,76 @@ static bool names_macro(const Reader *reader, const char *p, bool condition, boo
     return found;
 }
 
-/* Within such a condition: precisions, and macros of a precision or of nothing. */
-static bool check_restricted(const Reader *reader, const char *p, bool define)
+static bool refuse(const Reader *reader, const char *token)
 {
+    return message_set(reader->message,
+                       "depends on GL_ES or GL_FRAGMENT_PRECISION_HIGH in more than precision, at "
+                       "\"%s\"; remove the condition",
+                       token);
+}
+
+static void add_hash(Condition *condition, uint64_t hash)
+{
+    condition->now = (condition->now ^ hash) * 0x9e3779b97f4a7c15u + 1;
+}
+
+/* Within such a condition: what is no precision is as in the other branches. A macro is a precision
+ * or nothing. */
+static bool read_restricted(Reader *reader, const char *p, bool define)
+{
+    Condition *condition = &reader->conditions[reader->depth];
     char token[NAME_SIZE];
     bool precision = false;
     if (define)
         p = next_token(p, token); /* its name */
     while (p && (p = next_token(p, token))) {
         precision |= strcmp(token, "precision") == 0 && !define;
-        if (!precision && text_among(token, PRECISIONS) < 0)
-            return message_set(reader->message,
-                               "depends on GL_ES or GL_FRAGMENT_PRECISION_HIGH in more than "
-                               "precision, at \"%s\"; remove the condition",
-                               token);
+        if (!precision && text_among(token, PRECISIONS) < 0) {
+            if (define)
+                return refuse(reader, token);
+            if (!condition->token[0])
+                memcpy(condition->token, token, sizeof token);
+            for (const char *at = token; *at; at++)
+                add_hash(condition, (unsigned char)*at);
+            add_hash(condition, ' ');
+        }
         precision &= token[0] != ';';
     }
     return true;
 }
 
+/* What is read is a branch. */
+static bool end_branch(Reader *reader)
+{
+    Condition *condition = &reader->conditions[reader->depth];
+    if (condition->compared && condition->now != condition->first)
+        return refuse(reader, condition->token);
+    condition->compared = condition->restricted;
+    condition->first = condition->now;
+    condition->now = 0;
+    return true;
+}
+
+/* Without #else there is a branch of nothing, too. */
+static bool end_condition(Reader *reader)
+{
+    const Condition *condition = &reader->conditions[reader->depth];
+    if (!end_branch(reader) || (!condition->otherwise && !end_branch(reader)))
+        return false;
+    reader->depth -= reader->depth > 0;
+    add_hash(&reader->conditions[reader->depth], condition->first);
+    return true;
+}
+
 static bool read_define(Reader *reader, const char *rest, bool dependent)
 {
-    if (!dependent && !reader->restricted[reader->depth])
+    const bool restricted = reader->conditions[reader->depth].restricted;
+    if (!dependent && !restricted)
         return true;
     if (reader->name_count == MAX_NAMES)
         return message_set(reader->message, "has too many macros that depend on GL_ES");
     next_token(rest, reader->names[reader->name_count++]);
-    return !reader->restricted[reader->depth] || check_restricted(reader, rest, true);
+    return !restricted || read_restricted(reader, rest, true);
 }
 
 static bool read_line(Reader *reader, const char *line)
@@ -146,19 +198,23 @@ static bool read_line(Reader *reader, const char *line)
     const bool dependent = names_macro(reader, rest, condition, &allowed);
     if (!allowed)
         return false;
+    Condition *at = &reader->conditions[reader->depth];
     if (condition && strcmp(word, "elif") != 0) {
         if (reader->depth == MAX_DEPTH)
             return message_set(reader->message, "has conditions that are nested too deep");
-        const bool outer = reader->restricted[reader->depth++];
-        reader->restricted[reader->depth] = outer || dependent;
-    } else if (condition) {
-        reader->restricted[reader->depth] |= dependent;
+        reader->conditions[++reader->depth] =
+            (Condition){.restricted = at->restricted || dependent};
+    } else if (condition || (directive && strcmp(word, "else") == 0)) {
+        if (!end_branch(reader))
+            return false;
+        at->restricted |= dependent;
+        at->otherwise |= !condition;
     } else if (directive && strcmp(word, "endif") == 0) {
-        reader->depth -= reader->depth > 0;
+        return end_condition(reader);
     } else if (directive && strcmp(word, "define") == 0) {
         return read_define(reader, rest, dependent);
-    } else if (!directive || strcmp(word, "else") != 0) {
-        return !reader->restricted[reader->depth] || check_restricted(reader, line, false);
+    } else {
+        return !at->restricted || read_restricted(reader, line, false);
     }
     return true;
 }

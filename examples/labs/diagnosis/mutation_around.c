@@ -1,0 +1,253 @@
+/* What depends on more than an operation's own text: the loop around it, a variable's value, the
+ * statements beside it. */
+#include "labs/diagnosis/mutation.h"
+#include "labs/diagnosis/mutation_forms.h"
+
+#include "base/memory.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST = 12, NAME_SIZE = 72, TEXT_SIZE = 512, DEPTH = 4 };
+
+/* Operators. */
+
+void forms_logic(GlslTree *tree, int node, FormTake *take, void *context)
+{
+    static const unsigned short OPS[] = {GLSL_OR, GLSL_AND, GLSL_EQUAL, GLSL_NOT_EQUAL};
+    GlslNode *at = &tree->nodes[node];
+    const unsigned short was = at->op;
+    if (at->kind != GLSL_BINARY || at->type != GLSL_BOOL ||
+        tree->nodes[at->first].type != GLSL_BOOL)
+        return;
+    for (int i = 0; i < 4; i++) {
+        char text[TEXT_SIZE];
+        at->op = OPS[i];
+        glsl_expression_text(tree, node, text, sizeof text);
+        at->op = was;
+        if (OPS[i] != was)
+            take(context, &(Form){.text = text});
+    }
+}
+
+/* One more and one less, of an int or a float. */
+static void add_one(GlslTree *tree, int node, int type, FormTake *take, void *context)
+{
+    for (int i = 0; i < 2 && (type == GLSL_INT || type == GLSL_FLOAT); i++) {
+        char text[TEXT_SIZE];
+        glsl_expression_text(tree, node, text, sizeof text - 8);
+        strcat(text, i ? " - 1" : " + 1");
+        strcat(text, type == GLSL_INT ? "" : ".0");
+        take(context, &(Form){.text = text});
+    }
+}
+
+void forms_turns(GlslTree *tree, int node, FormTake *take, void *context)
+{
+    const GlslNode *at = &tree->nodes[node];
+    if (at->kind == GLSL_BINARY && at->op >= GLSL_LESS && at->op <= GLSL_GREATER_EQUAL &&
+        tree->nodes[forms_parent(tree, node)].kind == GLSL_FOR)
+        add_one(tree, node, tree->nodes[at->first].type, take, context);
+}
+
+void forms_begins(GlslTree *tree, int node, FormTake *take, void *context)
+{
+    const int above = forms_parent(tree, node);
+    const int loop = forms_parent(tree, forms_parent(tree, above));
+    if (tree->nodes[above].kind == GLSL_VARIABLE_NODE && tree->nodes[loop].kind == GLSL_FOR)
+        add_one(tree, node, tree->nodes[node].type, take, context);
+}
+
+/* Other lights. */
+
+/* What a local variable is computed from: what was assigned last, else its first value; 0: nothing
+ * that is known. */
+static int value_of(const GlslTree *tree, const GlslNode *node)
+{
+    const GlslSymbol *symbol = &tree->symbols[node->symbol];
+    int value = 0;
+    if (node->kind != GLSL_NAME || symbol->kind != GLSL_VARIABLE || symbol->built_in ||
+        symbol->global || symbol->storage != GLSL_LOCAL || node->symbol == 0)
+        return 0;
+    for (int i = 1; i < tree->node_count; i++) {
+        const GlslNode *at = &tree->nodes[i], *first = &tree->nodes[at->first];
+        if (at->kind == GLSL_VARIABLE_NODE && at->symbol == node->symbol && !value)
+            value = first->kind == GLSL_NOTHING ? 0 : at->first;
+        else if (at->kind == GLSL_ASSIGN && at->op == GLSL_SET && first->kind == GLSL_NAME &&
+                 first->symbol == node->symbol)
+            value = first->next;
+    }
+    return value;
+}
+
+/* Of an element of a uniform the index; 0: it is none. */
+static int index_of(const GlslTree *tree, const GlslNode *node)
+{
+    const GlslNode *base = &tree->nodes[node->first];
+    return node->kind == GLSL_INDEX && base->kind == GLSL_NAME &&
+                   tree->symbols[base->symbol].storage == GLSL_UNIFORM &&
+                   tree->types[base->type].element
+               ? base->next
+               : 0;
+}
+
+typedef struct Other {
+    const char *index;   /* that uniforms get */
+    char was[NAME_SIZE]; /* that they have; "": there is none */
+} Other;
+
+/* What is put into an expression. */
+typedef struct Puts {
+    char *texts[MOST];
+    int places[MOST], count;
+    GlslNode were[MOST];
+} Puts;
+
+static char *other_text(GlslTree *tree, int node, Other *other, int depth);
+
+/* Puts other texts where uniforms' elements and variables that depend on them are. */
+static void put_others(GlslTree *tree, int node, Other *other, int depth, Puts *puts)
+{
+    const GlslNode *at = &tree->nodes[node];
+    const int index = index_of(tree, at), value = value_of(tree, at);
+    char *text = NULL, base[NAME_SIZE];
+    if (index) {
+        glsl_expression_text(tree, index, other->was, sizeof other->was);
+        glsl_expression_text(tree, at->first, base, sizeof base);
+        text = memory_format("%s[%s]", base, other->index);
+    } else if (value && depth > 0) {
+        text = other_text(tree, value, other, depth - 1);
+    }
+    if (text && puts->count < MOST) {
+        puts->texts[puts->count] = text;
+        puts->places[puts->count] = node;
+        mutation_put(tree, node, text, &puts->were[puts->count++]);
+        return;
+    }
+    free(text);
+    for (int i = at->first; i && !index; i = tree->nodes[i].next)
+        put_others(tree, i, other, depth, puts);
+}
+
+/* An expression's text with the other index, in parentheses; NULL: it has none. */
+static char *other_text(GlslTree *tree, int node, Other *other, int depth)
+{
+    Puts *puts = memory_new(1, sizeof *puts);
+    char text[TEXT_SIZE];
+    put_others(tree, node, other, depth, puts);
+    const bool found = puts->count > 0;
+    glsl_expression_text(tree, node, text, sizeof text);
+    while (puts->count > 0) {
+        puts->count--;
+        mutation_take_back(tree, puts->places[puts->count], &puts->were[puts->count]);
+        free(puts->texts[puts->count]);
+    }
+    free(puts);
+    return found ? memory_format("(%s)", text) : NULL;
+}
+
+static const char *light_of(const char *index)
+{
+    return strcmp(index, "0") == 0   ? "the first light"
+           : strcmp(index, "1") == 0 ? "the second light"
+                                     : "each light";
+}
+
+void forms_lights(GlslTree *tree, int node, FormTake *take, void *context)
+{
+    const int value = value_of(tree, &tree->nodes[node]), count = tree->symbol_count;
+    for (int i = -1; i < count && value; i++) {
+        const GlslSymbol *symbol = &tree->symbols[i < 0 ? 0 : i];
+        const bool counter = symbol->kind == GLSL_VARIABLE && symbol->type == GLSL_INT &&
+                             symbol->storage == GLSL_LOCAL && !symbol->global;
+        Other other = {.index = i == -1 ? "0" : i == 0 ? "1" : symbol->name};
+        char *text = i < 1 || counter ? other_text(tree, value, &other, DEPTH) : NULL;
+        if (text && strcmp(other.was, other.index) != 0)
+            take(
+                context,
+                &(Form){.text = text, .name = light_of(other.index), .other = light_of(other.was)});
+        free(text);
+    }
+}
+
+/* Moves. */
+
+/* What a loop or an `if` does, if that is a block; 0: it is neither. */
+static int block_of(const GlslTree *tree, int node)
+{
+    const GlslNode *at = &tree->nodes[node];
+    int body = at->kind == GLSL_IF ? tree->nodes[at->first].next : 0;
+    for (int i = at->kind == GLSL_FOR ? at->first : 0; i; i = tree->nodes[i].next)
+        body = i;
+    return tree->nodes[body].kind == GLSL_BLOCK ? body : 0;
+}
+
+static void unlink_node(GlslTree *tree, int block, int node)
+{
+    int *at = &tree->nodes[block].first;
+    while (*at != node)
+        at = &tree->nodes[*at].next;
+    *at = tree->nodes[node].next;
+}
+
+/* Into a block, before a node, 0: as its last. */
+static void link_node(GlslTree *tree, int block, int node, int before)
+{
+    int *at = &tree->nodes[block].first;
+    while (*at && *at != before)
+        at = &tree->nodes[*at].next;
+    tree->nodes[node].next = before;
+    *at = node;
+}
+
+typedef struct Move {
+    GlslTree *tree;
+    int node, from; /* from: the block it is in */
+    FormTake *take;
+    void *context;
+} Move;
+
+static void move(const Move *move, int to, int before, int around, const char *was, const char *by)
+{
+    GlslTree *tree = move->tree;
+    const size_t size = (size_t)tree->node_count * sizeof *tree->nodes;
+    const char *what = tree->nodes[around].kind == GLSL_FOR ? "loop" : "if";
+    GlslNode *saved = memory_new(1, size);
+    char name[64], text[64];
+    memcpy(saved, tree->nodes, size);
+    unlink_node(tree, move->from, move->node);
+    link_node(tree, to, move->node, before);
+    char *whole = glsl_print(tree, tree->root);
+    memcpy(tree->nodes, saved, size);
+    snprintf(name, sizeof name, "%s the %s, not %s it", was, what, by);
+    snprintf(text, sizeof text, "it %s the %s", by, what);
+    move->take(move->context, &(Form){.text = text, .name = name, .whole = whole});
+    free(whole);
+    free(saved);
+}
+
+void forms_moves(GlslTree *tree, int node, FormTake *take, void *context)
+{
+    const int block = forms_parent(tree, node), around = forms_parent(tree, block);
+    const Move moves = {tree, node, block, take, context};
+    if (tree->nodes[node].kind != GLSL_EXPRESSION || tree->nodes[block].kind != GLSL_BLOCK)
+        return;
+    int before = 0, after = 0; /* the nearest ones */
+    bool passed = false;
+    for (int i = tree->nodes[block].first; i; i = tree->nodes[i].next) {
+        passed |= i == node;
+        before = block_of(tree, i) && !passed ? i : before;
+        after = block_of(tree, i) && passed && !after ? i : after;
+    }
+    if (before)
+        move(&moves, block_of(tree, before), 0, before, "after", "in");
+    if (after)
+        move(&moves, block_of(tree, after), tree->nodes[block_of(tree, after)].first, after,
+             "before", "in");
+    const int outer = forms_parent(tree, around);
+    if (block_of(tree, around) != block || tree->nodes[outer].kind != GLSL_BLOCK)
+        return;
+    move(&moves, outer, tree->nodes[around].next, around, "in", "after");
+    move(&moves, outer, around, around, "in", "before");
+}

@@ -1,0 +1,292 @@
+/* Sums and products are taken as chains: operands, and the operators between them, without the
+ * parentheses that the tree's shape needs. */
+#include "labs/diagnosis/mutation_forms.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { MOST = 12, NAME_SIZE = 72, TEXT_SIZE = 512 };
+
+bool forms_is_name(const GlslNode *node)
+{
+    return node->kind == GLSL_NAME || node->kind == GLSL_INDEX || node->kind == GLSL_SWIZZLE;
+}
+
+int forms_parent(const GlslTree *tree, int node)
+{
+    for (int i = 1; i < tree->node_count; i++)
+        for (int k = tree->nodes[i].first; k; k = tree->nodes[k].next)
+            if (k == node)
+                return i;
+    return 0;
+}
+
+/* Exchanges. */
+
+/* Names, elements and components below a node. */
+typedef struct Leaves {
+    int nodes[MOST], count;
+    char texts[MOST][NAME_SIZE];
+} Leaves;
+
+static void take_leaves(const GlslTree *tree, int node, Leaves *leaves)
+{
+    if (forms_is_name(&tree->nodes[node]) && leaves->count < MOST) {
+        leaves->nodes[leaves->count] = node;
+        glsl_expression_text(tree, node, leaves->texts[leaves->count++], NAME_SIZE);
+        return;
+    }
+    for (int i = tree->nodes[node].first; i; i = tree->nodes[i].next)
+        take_leaves(tree, i, leaves);
+}
+
+/* Whether the text stands once only. */
+static bool is_sole(const Leaves *leaves, int leaf)
+{
+    int count = 0;
+    for (int i = 0; i < leaves->count; i++)
+        count += strcmp(leaves->texts[i], leaves->texts[leaf]) == 0;
+    return count == 1;
+}
+
+static void exchange(GlslTree *tree, int a, int b)
+{
+    const GlslNode was = tree->nodes[a];
+    tree->nodes[a] = tree->nodes[b];
+    tree->nodes[b] = was;
+    tree->nodes[b].next = tree->nodes[a].next;
+    tree->nodes[a].next = was.next;
+}
+
+/* Not both operands of a sum or product. What stands more than once is rather one taken for
+ * another.
+ */
+void forms_exchanges(GlslTree *tree, int node, FormTake *take, void *context)
+{
+    const GlslNode *at = &tree->nodes[node];
+    const bool commutes = at->kind == GLSL_BINARY && at->op <= GLSL_MULTIPLY;
+    const int second = tree->nodes[at->first].next;
+    Leaves all = {.count = 0};
+    if (at->kind != GLSL_BINARY && (at->kind < GLSL_CALL || at->kind > GLSL_CONSTRUCT))
+        return;
+    take_leaves(tree, at->first, &all);
+    const int first = all.count;
+    for (int i = second; i; i = tree->nodes[i].next)
+        take_leaves(tree, i, &all);
+    for (int i = 0; i < first; i++) {
+        for (int k = first; k < all.count; k++) {
+            const int a = all.nodes[i], b = all.nodes[k];
+            char name[2 * NAME_SIZE + 8], text[TEXT_SIZE];
+            if (tree->nodes[a].type != tree->nodes[b].type || !is_sole(&all, i) ||
+                !is_sole(&all, k) || (commutes && a == at->first && b == second))
+                continue;
+            exchange(tree, a, b);
+            glsl_expression_text(tree, node, text, sizeof text);
+            exchange(tree, a, b);
+            snprintf(name, sizeof name, "%s and %s", all.texts[i], all.texts[k]);
+            take(context, &(Form){.text = text, .name = name});
+        }
+    }
+}
+
+/* Chains. */
+
+typedef struct Chain {
+    int nodes[MOST], ops[MOST]; /* ops: before it */
+    bool grouped[MOST];
+    int count;
+} Chain;
+
+enum { SUM = 1, PRODUCT, ATOM };
+
+static int strength_of(int op)
+{
+    return op == GLSL_ADD || op == GLSL_SUBTRACT      ? SUM
+           : op == GLSL_MULTIPLY || op == GLSL_DIVIDE ? PRODUCT
+                                                      : ATOM;
+}
+
+static int strength(const GlslNode *node)
+{
+    return node->kind == GLSL_BINARY ? strength_of(node->op) : ATOM;
+}
+
+static void take_chain(const GlslTree *tree, int node, int weakest, int op, Chain *chain)
+{
+    const GlslNode *at = &tree->nodes[node];
+    const int own = strength(at);
+    if (own == ATOM || own < weakest) {
+        if (chain->count < MOST) {
+            chain->nodes[chain->count] = node;
+            chain->ops[chain->count] = op;
+            chain->grouped[chain->count++] = own < weakest;
+        }
+        return;
+    }
+    take_chain(tree, at->first, own, op, chain);
+    take_chain(tree, tree->nodes[at->first].next, own + 1, at->op, chain);
+}
+
+/* Nothing above it is in the same chain, of this strength or of any. */
+static bool is_top(const GlslTree *tree, int node, int weakest)
+{
+    const GlslNode *at = &tree->nodes[node], *above = &tree->nodes[forms_parent(tree, node)];
+    const int own = strength(at), other = strength(above);
+    return own != ATOM && own >= weakest &&
+           (other == ATOM || other < weakest ||
+            (above->first == node ? own < other : own <= other));
+}
+
+static void add(char text[TEXT_SIZE], const char *form, const char *put)
+{
+    const size_t used = strlen(text);
+    snprintf(text + used, TEXT_SIZE - used, form, put);
+}
+
+static void add_op(char text[TEXT_SIZE], int op)
+{
+    static const char *const OPS[] = {[GLSL_ADD] = " + ",
+                                      [GLSL_SUBTRACT] = " - ",
+                                      [GLSL_MULTIPLY] = " * ",
+                                      [GLSL_DIVIDE] = " / "};
+    add(text, "%s", OPS[op]);
+}
+
+static void add_item(const GlslTree *tree, const Chain *chain, int i, bool grouped,
+                     char text[TEXT_SIZE])
+{
+    char item[TEXT_SIZE];
+    glsl_expression_text(tree, chain->nodes[i], item, sizeof item);
+    add(text, grouped ? "(%.500s)" : "%.500s", item);
+}
+
+/* Items from `first` to `last`, with parentheses around those from `from` to `to`, or without those
+ * of `open`. */
+static void put_chain(const GlslTree *tree, const Chain *chain, int first, int last,
+                      const int range[2], int open, char text[TEXT_SIZE])
+{
+    text[0] = '\0';
+    for (int i = first; i <= last; i++) {
+        if (i > first)
+            add_op(text, chain->ops[i]);
+        add(text, "%s", i == range[0] ? "(" : "");
+        add_item(tree, chain, i, chain->grouped[i] && i != open, text);
+        add(text, "%s", i == range[1] ? ")" : "");
+    }
+}
+
+/* Whether parentheses around items that are joined by operators of this strength and weaker ones
+ * say something. */
+static bool matters(const Chain *chain, int from, int to, int lowest)
+{
+    const int before = from > 0 ? chain->ops[from] : 0;
+    const int after = to + 1 < chain->count ? chain->ops[to + 1] : 0;
+    return (before && (strength_of(before) > lowest || before == GLSL_DIVIDE ||
+                       (before == GLSL_SUBTRACT && lowest == SUM))) ||
+           (after && strength_of(after) > lowest);
+}
+
+void forms_brackets(GlslTree *tree, int node, FormTake *take, void *context)
+{
+    Chain chain = {.count = 0};
+    if (!is_top(tree, node, SUM))
+        return;
+    take_chain(tree, node, SUM, 0, &chain);
+    for (int from = 0; from < chain.count; from++) {
+        int lowest = ATOM;
+        for (int to = from + 1; to < chain.count; to++) {
+            const int own = strength_of(chain.ops[to]);
+            char text[TEXT_SIZE], inner[TEXT_SIZE];
+            lowest = own < lowest ? own : lowest;
+            if (!matters(&chain, from, to, lowest))
+                continue;
+            put_chain(tree, &chain, 0, chain.count - 1, (int[]){from, to}, -1, text);
+            put_chain(tree, &chain, from, to, (int[]){-1, -1}, -1, inner);
+            take(context, &(Form){.text = text, .name = inner});
+        }
+    }
+}
+
+void forms_unbrackets(GlslTree *tree, int node, FormTake *take, void *context)
+{
+    Chain chain = {.count = 0};
+    if (!is_top(tree, node, SUM))
+        return;
+    take_chain(tree, node, SUM, 0, &chain);
+    for (int i = 0; i < chain.count; i++) {
+        char text[TEXT_SIZE], inner[TEXT_SIZE] = "";
+        if (!chain.grouped[i] || !matters(&chain, i, i, strength(&tree->nodes[chain.nodes[i]])))
+            continue;
+        put_chain(tree, &chain, 0, chain.count - 1, (int[]){-1, -1}, i, text);
+        add_item(tree, &chain, i, false, inner);
+        take(context, &(Form){.text = text, .name = inner});
+    }
+}
+
+/* The product without a factor, and the sum in it with the factor at all terms but one. */
+static void put_spread(const GlslTree *tree, const Chain *chain, const Chain *sum, const int at[3],
+                       char text[TEXT_SIZE])
+{
+    text[0] = '\0';
+    for (int i = 0; i < chain->count; i++)
+        if (i != at[0] && i != at[1] && chain->ops[i] != GLSL_DIVIDE) {
+            add_item(tree, chain, i, chain->grouped[i], text);
+            add_op(text, GLSL_MULTIPLY);
+        }
+    add(text, "%s", "(");
+    for (int i = 0; i < sum->count; i++) {
+        if (i > 0)
+            add_op(text, sum->ops[i]);
+        if (i != at[2]) {
+            add_item(tree, chain, at[0], chain->grouped[at[0]], text);
+            add_op(text, GLSL_MULTIPLY);
+        }
+        add_item(tree, sum, i, sum->grouped[i], text);
+    }
+    add(text, "%s", ")");
+    for (int i = 0; i < chain->count; i++)
+        if (chain->ops[i] == GLSL_DIVIDE) {
+            add_op(text, GLSL_DIVIDE);
+            add_item(tree, chain, i, chain->grouped[i], text);
+        }
+}
+
+/* The terms of a sum, whose products stay whole. */
+static void take_terms(const GlslTree *tree, int node, int op, Chain *sum)
+{
+    const GlslNode *at = &tree->nodes[node];
+    const bool more = strength(at) == SUM;
+    if (more)
+        take_terms(tree, at->first, op, sum);
+    const int term = more ? tree->nodes[at->first].next : node;
+    if (sum->count < MOST) {
+        sum->nodes[sum->count] = term;
+        sum->ops[sum->count] = more ? at->op : op;
+        sum->grouped[sum->count++] = strength(&tree->nodes[term]) == SUM;
+    }
+}
+
+void forms_spreads(GlslTree *tree, int node, FormTake *take, void *context)
+{
+    Chain chain = {.count = 0};
+    if (!is_top(tree, node, PRODUCT))
+        return;
+    take_chain(tree, node, PRODUCT, 0, &chain);
+    for (int s = 0; s < chain.count; s++) {
+        Chain sum = {.count = 0};
+        if (!chain.grouped[s] || chain.ops[s] == GLSL_DIVIDE)
+            continue;
+        take_terms(tree, chain.nodes[s], 0, &sum);
+        for (int i = 0; i < chain.count; i++) {
+            char text[TEXT_SIZE], name[TEXT_SIZE], term[TEXT_SIZE];
+            if (i == s || chain.ops[i] == GLSL_DIVIDE)
+                continue;
+            glsl_expression_text(tree, chain.nodes[i], name, sizeof name);
+            for (int t = 0; t < sum.count; t++) {
+                put_spread(tree, &chain, &sum, (int[]){i, s, t}, text);
+                glsl_expression_text(tree, sum.nodes[t], term, sizeof term);
+                take(context, &(Form){.text = text, .name = name, .other = term});
+            }
+        }
+    }
+}

@@ -1,0 +1,46 @@
+/*
+ * mutation_forms: texts that stand for a node and that no pattern of mutation_rules.def makes.
+ */
+#ifndef MUTATION_FORMS_H
+#define MUTATION_FORMS_H
+
+#include "glsl/glsl.h"
+
+typedef struct Form {
+    const char *text;         /* instead of the node's; of a statement that is moved: where it is */
+    const char *name, *other; /* what the rule's @ and # are */
+    const char *whole;        /* all of the text, NULL: what is around the node stays as it is */
+} Form;
+typedef void FormTake(void *context, const Form *form);
+
+/* Each of a kind. The tree is as it was afterwards. */
+typedef void FormsEach(GlslTree *tree, int node, FormTake *take, void *context);
+
+/* With a leaf of the first operand and one of the others exchanged. */
+FormsEach forms_exchanges;
+
+/* A sum or product with a pair of parentheses more, or less: `name` is what is in it. */
+FormsEach forms_brackets, forms_unbrackets;
+
+/* A factor (`name`) of a product with a sum, for all but one of its terms (`other`). */
+FormsEach forms_spreads;
+
+/* Another logical operator. */
+FormsEach forms_logic;
+
+/* The condition of a loop, or its beginning, one more or less. */
+FormsEach forms_turns, forms_begins;
+
+/* A local variable, computed anew with another element (`name`, was `other`) of the uniforms. */
+FormsEach forms_lights;
+
+/* A statement before, behind or in a loop or an `if` near it. */
+FormsEach forms_moves;
+
+/* The node that it is a child of; 0: none. */
+int forms_parent(const GlslTree *tree, int node);
+
+/* A variable, an element or a component. */
+bool forms_is_name(const GlslNode *node);
+
+#endif
