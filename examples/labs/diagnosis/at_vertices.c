@@ -93,6 +93,131 @@ bool at_vertices_explain(Derivation *all, Verdict *verdict)
     return found;
 }
 
+/* The submission's own varying, whose value is computed at the point instead: from values of the
+ * vertex shader that are interpolated, those of length 1 to length 1. */
+enum { MOST_EVENTS = 64 };
+
+typedef struct Varying {
+    double numbers[POINT_CORNERS * MOST_EVENTS]
+                  [4]; /* what is assigned, one corner after the other */
+    int count, at;
+    const double *weights;
+    int symbol, from; /* the varying; the event from which on values are computed at the point */
+} Varying;
+
+static void record(GlslRun *run, const GlslEvent *event, void *observer)
+{
+    Varying *varying = observer;
+    if (varying->count < POINT_CORNERS * MOST_EVENTS)
+        for (int k = 0; k < event->count && k < 4; k++)
+            varying->numbers[varying->count][k] = run->registers[event->first + k];
+    varying->count++;
+}
+
+static void blend(GlslRun *run, const GlslEvent *event, void *observer)
+{
+    Varying *varying = observer;
+    const int each = varying->count / POINT_CORNERS, at = varying->at++ % each;
+    double length = 0, *to = run->registers + event->first;
+    bool unit = event->count == 3;
+    if (event->count > 4 || at >= varying->from)
+        return;
+    for (int k = 0; k < event->count; k++)
+        to[k] = 0;
+    for (int c = 0; c < POINT_CORNERS; c++) {
+        const double *numbers = varying->numbers[c * each + at];
+        for (int k = 0; k < event->count; k++)
+            to[k] += varying->weights[c] * numbers[k];
+        unit &= fabs(numbers[0] * numbers[0] + numbers[1] * numbers[1] + numbers[2] * numbers[2] -
+                     1) < 1e-9;
+    }
+    for (int k = 0; k < 3 && unit; k++)
+        length += to[k] * to[k];
+    for (int k = 0; k < 3 && length > 0; k++)
+        to[k] /= sqrt(length);
+}
+
+/* Runs the submission with the varying as it is computed at the point, and all others as they are.
+ * False: it computes more at one corner than at another. */
+static bool run_with(Derivation *all, Varying *varying, int point, double numbers[POINT_NUMBERS])
+{
+    PointShader *vertex = &all->own[0];
+    const int width = vertex->width;
+    double *outputs = vertex->outputs + (size_t)(point * POINT_CORNERS * width);
+    double *kept = memory_new((size_t)(POINT_CORNERS * width), sizeof *kept);
+    varying->count = varying->at = 0;
+    for (int once = 0; once < 2; once++) {
+        vertex->at_once = once;
+        vertex->run->assigned = once ? blend : record;
+        vertex->done[point] = false;
+        points_run(&all->points, vertex, &all->own[1], point, numbers);
+        for (int i = 0, at = 0; i < vertex->code->variable_count; i++) {
+            const GlslVariable *variable = &vertex->code->variables[i];
+            const bool out = points_is_output(variable), same = variable->symbol != varying->symbol;
+            for (int k = 0; k < POINT_CORNERS && out && (!once || same); k++)
+                memcpy((once ? outputs : kept) + k * width + at,
+                       (once ? kept : outputs) + k * width + at,
+                       (size_t)variable->count * sizeof(double));
+            at += out ? variable->count : 0;
+        }
+        if (varying->count % POINT_CORNERS || varying->count > POINT_CORNERS * MOST_EVENTS ||
+            !varying->count)
+            break;
+    }
+    const bool same = vertex->at_once;
+    if (same)
+        points_run(&all->points, vertex, &all->own[1], point, numbers);
+    free(kept);
+    return same;
+}
+
+/* Whether the submission is right with the varying computed at each point. */
+static bool is_right_with(Derivation *all, Varying *varying)
+{
+    bool right = true;
+    all->own[0].run->observer = varying;
+    for (int i = 0; i < all->points.count && right; i++) {
+        const int point = all->order[i];
+        double numbers[POINT_NUMBERS];
+        varying->weights = all->points.items[point].weights;
+        right = run_with(all, varying, point, numbers) &&
+                points_apart(numbers, all->exact[point]) <= DERIVATION_EQUAL;
+        all->own[0].done[point] = false;
+    }
+    all->own[0].at_once = false;
+    all->own[0].run->assigned = NULL;
+    return right;
+}
+
+bool at_vertices_explain_own(Derivation *all, Verdict *verdict)
+{
+    PointShader *vertex = &all->own[0];
+    Values *values = memory_new(1, sizeof *values);
+    Varying *varying = memory_new(1, sizeof *varying);
+    char name[64], place[VERDICT_SENTENCE_SIZE];
+    bool found = false;
+    values_trace(&all->points, vertex, &all->own[1], all->order[0], values);
+    for (int i = 0; i < values->count && !found; i++) {
+        const GlslSymbol *symbol = &vertex->tree->symbols[values->items[i].symbol];
+        varying->symbol = values->items[i].symbol;
+        if (values->items[i].stage != GLSL_VERTEX || symbol->storage != GLSL_VARYING)
+            continue;
+        for (varying->from = i; varying->from >= 0 && !found; varying->from--)
+            found = is_right_with(all, varying);
+        if (!found)
+            continue;
+        snprintf(name, sizeof name, "%.40s at the vertices", symbol->name);
+        derivation_place(all, GLSL_VERTEX, values->items[i].node, place, sizeof place);
+        verdict_add_mistake(verdict, name,
+                            "It is computed at the vertices and interpolated: the mesh shows.",
+                            place, 0.9);
+        snprintf(verdict->message, sizeof verdict->message, "%s", name);
+    }
+    free(values);
+    free(varying);
+    return found;
+}
+
 void at_vertices_report(const LabPictures *pictures, FILE *file, Message *message)
 {
     const double steps = lab_pictures_tolerance(pictures, 0);

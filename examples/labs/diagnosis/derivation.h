@@ -194,6 +194,9 @@ void derivation_place(const Derivation *all, GlslStage stage, int node, char *te
  * fragment; false: it does not. */
 bool at_vertices_explain(Derivation *all, Verdict *verdict);
 
+/* The same of one of its own varyings. */
+bool at_vertices_explain_own(Derivation *all, Verdict *verdict);
+
 /* What of the light is seen with `without` and not with `beside`: POINTS_NO_. */
 typedef struct Term {
     char name[40];

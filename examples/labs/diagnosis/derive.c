@@ -447,7 +447,8 @@ static bool explain(Derivation *all, Verdict *verdict)
         return true;
     }
     if ((derive_use_right(all, "_apart", LIT_NEAREST) && at_vertices_explain(all, verdict)) ||
-        (derive_use_right(all, "", LIT_NEAREST) && at_vertices_explain(all, verdict)) ||
+        (derive_use_right(all, "", LIT_NEAREST) &&
+         (at_vertices_explain(all, verdict) || at_vertices_explain_own(all, verdict))) ||
         all->mended)
         return true;
     /* Of lab 10's sphere normals and places are the same, so that two changes explain too much. */

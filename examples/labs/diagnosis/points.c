@@ -214,7 +214,7 @@ void points_close(Points *points)
 
 /* Shaders. */
 
-static bool is_output(const GlslVariable *variable)
+bool points_is_output(const GlslVariable *variable)
 {
     return variable->storage == GLSL_VARYING ||
            (variable->storage == GLSL_OUT && strcmp(variable->name, "gl_Position") == 0);
@@ -225,7 +225,7 @@ static bool has_few_outputs(PointShader *shader)
 {
     enum { MOST = 1024 };
     for (int i = 0; i < shader->code->variable_count && shader->width <= MOST; i++)
-        if (is_output(&shader->code->variables[i]))
+        if (points_is_output(&shader->code->variables[i]))
             shader->width += shader->code->variables[i].count;
     return shader->width <= MOST;
 }
@@ -388,7 +388,7 @@ static void run_corners(const Points *points, PointShader *shader, int number)
         glsl_run(shader->run);
         for (int i = 0; i < shader->code->variable_count; i++) {
             const GlslVariable *variable = &shader->code->variables[i];
-            if (!is_output(variable))
+            if (!points_is_output(variable))
                 continue;
             memcpy(to, shader->run->registers + variable->first,
                    (size_t)variable->count * sizeof(double));
@@ -405,7 +405,7 @@ static bool interpolate(const Points *points, const PointShader *vertex, int num
     const double *from = vertex->outputs + (size_t)number * POINT_CORNERS * (size_t)vertex->width;
     for (int i = 0; i < vertex->code->variable_count; i++) {
         const GlslVariable *variable = &vertex->code->variables[i];
-        if (!is_output(variable))
+        if (!points_is_output(variable))
             continue;
         if (strcmp(variable->name, name) == 0 && variable->count == count) {
             for (int k = 0; k < count; k++) {
@@ -427,7 +427,7 @@ static void corner_places(const PointShader *vertex, int number, double clip[POI
     const double *from = vertex->outputs + (size_t)number * POINT_CORNERS * (size_t)vertex->width;
     for (int i = 0; i < vertex->code->variable_count; i++) {
         const GlslVariable *variable = &vertex->code->variables[i];
-        if (!is_output(variable))
+        if (!points_is_output(variable))
             continue;
         for (int k = 0; k < POINT_CORNERS && strcmp(variable->name, "gl_Position") == 0; k++)
             memcpy(clip[k], from + k * vertex->width, 4 * sizeof(double));

@@ -69,6 +69,9 @@ void point_shader_close(PointShader *shader); /* NULL or zeroed is fine */
 void points_run(const Points *points, PointShader *vertex, PointShader *fragment, int point,
                 double numbers[POINT_NUMBERS]);
 
+/* A varying, or gl_Position: what is in `outputs`. */
+bool points_is_output(const GlslVariable *variable);
+
 /* Where u_MvpMatrix puts the point. */
 void points_place(const Points *points, int point, double place[3]);
 
