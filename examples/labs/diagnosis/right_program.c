@@ -61,7 +61,8 @@ char *right_undeclared(const Points *points, GlslTree *tree)
         const int type = value->size == 16 ? GLSL_MAT4 : value->size == 1 ? GLSL_FLOAT : GLSL_VEC3;
         char *more = memory_format("%suniform highp %s %s%s;\n", text, tree->types[type].name,
                                    value->name, value->count > 1 ? "[2]" : "");
-        add_symbol(tree, value, type);
+        if (type != GLSL_MAT4) /* too alike */
+            add_symbol(tree, value, type);
         free(text);
         text = more;
     }
