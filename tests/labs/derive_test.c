@@ -165,6 +165,17 @@ static const struct {
     {1, 0, "normalize(vec3(u_NormalMatrix * vec4(a_Normal.xyz, 0.0)))",
      "vec3(normalize(u_NormalMatrix * a_Normal))",
      "normalized with its w: u_NormalMatrix * a_Normal"},
+    {8, 1, "(u_Attenuation.x + u_Attenuation.y * distance + u_Attenuation.z * distance * distance)",
+     "u_Attenuation.x + u_Attenuation.y * distance + u_Attenuation.z * distance * distance",
+     "parentheses missing: u_Attenuation.x + u_Attenuation.y * distance + u_Attenuation.z * ..."},
+    {9, 1, "gl_FrontFacing == (u_Mirrored > 0.0)", "(gl_FrontFacing || u_Mirrored < 0.0)",
+     "gl_FrontFacing || u_Mirrored < 0.0 for gl_FrontFacing != u_Mirrored < 0.0"},
+    {5, 1, "int i = 0", "int i = 1", "turns of the loop: 1 for 0"},
+    {7, 1, "lightDirection + viewDirection",
+     "(u_LightPosition[i] - v_Position) + (u_EyePosition - v_Position)",
+     "not normalized: u_LightPosition[i] - v_Position and u_EyePosition - v_Position"},
+    {6, 1, "vec4(color, v_Color.a)", "vec4(pow(color, vec3(1.0 / 2.2)), v_Color.a)",
+     "power too many: vec3(1.0 / 2.2)"},
 };
 
 TEST(test_names)

@@ -283,6 +283,31 @@ class Wrong(Labs):
             self.assertTrue(result["symptoms"], name)
 
 
+    def test_what_is_at_another_place_is_named(self):
+        """A statement, a value of another light, what is computed at the vertices, an axis of its own."""
+        loop, view = "    for (int i = 0; i < 2; i++) {", "normalize(u_EyePosition - v_Position)"
+        reflected = "    vec3 R = reflect(-normalize(u_LightPosition[0] - v_Position), normal);\n"
+        part = "part = u_LightColor[i] * nDotL;\n    }\n    light += part;"
+        fade = "vec3 u_LightPosition, u_Attenuation;\nvarying float v_Fade;\nvoid main() {"
+        cases = (
+            (6, "that of the first light, not of each light", ("frag", loop, reflected + loop),
+             ("frag", "dot(reflected,", "dot(R,")),
+            (5, "after the loop, not in it: light += part", ("frag", loop, "    vec3 part;\n" + loop),
+             ("frag", "light += u_LightColor[i] * nDotL;\n    }", part)),
+            (8, "v_Fade ", ("vert", "void main() {", "uniform " + fade),
+             ("vert", "    v_Color =", "    float d = length(u_LightPosition - v_Position);\n    v_Fade = "
+              "1.0 / (u_Attenuation.x + u_Attenuation.y * d + u_Attenuation.z * d * d);\n    v_Color ="),
+             ("frag", "void main() {", "varying float v_Fade;\nvoid main() {"),
+             ("frag", "attenuation * spot", "v_Fade * spot")),
+            (6, "vec3(0.0, 0.0, 5.0) for u_EyePosition", ("frag", "uniform vec3 u_EyePosition; // world space", ""),
+             ("frag", view, "normalize(vec3(0.0, 0.0, 5.0) - v_Position)")),
+        )  # fmt: skip
+        jobs = [(lab, edited(lab, *edits)) for lab, _, *edits in cases]
+        for (_, said, *_), result in zip(cases, in_parallel(check_texts, jobs)):
+            self.assertEqual(len(result["mistakes"]), 1, (said, result["message"]))
+            self.assertTrue(named(result)[0].startswith(said), (said, named(result)))
+
+
 def edited(lab, *edits):
     """The solution's texts with edits; each must be possible."""
     texts = mistakes.applied(mistakes.read(lab), lab, list(edits))
@@ -531,8 +556,8 @@ class Holes(Labs):
             (7, "#define A __VER\\\nSION__\n#if A == 100", "#else", "__VERSION__"),
             (2, "#ifdef GL_ES\n#define A\n#endif\n#ifndef A\n#else", "#endif\n#ifndef A", "GL_ES"),
             (4, "#if 1\n#define A (1.0 - gl_PointCoord.x)", "#else", "gl_PointCoord"),
-            (5, "#ifdef GL_ES\nconst float k = 1.0;\n#else\nconst float k = 2.0;\n#endif\n#if 1", "#else", "GL_ES"),
-            (5, "#ifdef GL_ES\nconst float k = 1.0;\n#endif\n#if 1", "#else", "GL_ES"),
+            (5, "#ifdef GL_ES\nconst int k = 1;\n#else\nconst int k = 2;\n#endif\n#if 1", "#else", "GL_ES"),
+            (5, "#ifdef GL_ES\nconst int k = 1;\n#endif\n#if 1", "#else", "GL_ES"),
         ):
             texts = edited(lab)
             for name in texts:

@@ -442,6 +442,9 @@ static bool explain(Derivation *all, Verdict *verdict)
     if (!blind && search(all))
         find_place(all, &all->best);
     const bool exact = mend_find(all);
+    if (exact && all->mending.mutation.formula && !all->best.text &&
+        derive_use_right(all, "", LIT_NEAREST) && at_vertices_explain_own(all, verdict))
+        return true;
     if (exact || all->best.text) {
         all->mended = exact;
         return true;

@@ -182,7 +182,7 @@ bool mend_try(Derivation *all, const Mutation *mutation, const char *text)
     const char *texts[2] = {NULL};
     texts[all->stage] = text;
     if (found.apart <= all->tolerance)
-        found.there = is_there(all, &found, pair);
+        found.there = mutation->moves || is_there(all, &found, pair);
     const bool better = found.apart <= all->tolerance &&
                         (!all->mended || compare(all, &found, &all->mending) < 0) &&
                         mend_passes(all, texts);

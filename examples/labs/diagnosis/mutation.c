@@ -19,10 +19,21 @@
 enum { ANY_FLOAT = 100, ANY_VEC3, ANY_NAME, ANY_BOTH, ANY_VEC2 };
 
 /* Of rules whose texts code makes: see mutation_forms.h. */
-enum { EXCHANGE = 200, BRACKET, UNBRACKET, SPREAD, LOGIC, TURNS, BEGINS, OTHER_LIGHT, MOVE };
-static FormsEach *const EACH[] = {forms_exchanges, forms_brackets, forms_unbrackets,
-                                  forms_spreads,   forms_logic,    forms_turns,
-                                  forms_begins,    forms_lights,   forms_moves};
+enum {
+    EXCHANGE = 200,
+    BRACKET,
+    UNBRACKET,
+    SPREAD,
+    LOGIC,
+    TURNS,
+    BEGINS,
+    OTHER_LIGHT,
+    MOVE,
+    EXPONENT
+};
+static FormsEach *const EACH[] = {forms_exchanges, forms_brackets, forms_unbrackets, forms_spreads,
+                                  forms_logic,     forms_turns,    forms_begins,     forms_lights,
+                                  forms_moves,     forms_exponents};
 
 typedef struct Rule {
     int kind, op; /* `op`: of a built-in function its number, -1: any; of one component: 1 for

@@ -32,13 +32,22 @@ void forms_logic(GlslTree *tree, int node, FormTake *take, void *context)
 }
 
 /* One more and one less, of an int or a float. */
-static void add_one(GlslTree *tree, int node, int type, FormTake *take, void *context)
+static void add_one(GlslTree *tree, int node, int number, FormTake *take, void *context)
 {
-    for (int i = 0; i < 2 && (type == GLSL_INT || type == GLSL_FLOAT); i++) {
-        char text[TEXT_SIZE];
-        glsl_expression_text(tree, node, text, sizeof text - 8);
-        strcat(text, i ? " - 1" : " + 1");
-        strcat(text, type == GLSL_INT ? "" : ".0");
+    const GlslNode *at = &tree->nodes[number];
+    for (int by = 1; by >= -1 && (at->type == GLSL_INT || at->type == GLSL_FLOAT); by -= 2) {
+        char text[TEXT_SIZE], put[TEXT_SIZE];
+        GlslNode was;
+        if (at->constant && at->type == GLSL_INT) {
+            snprintf(put, sizeof put, "%d", (int)tree->values[at->value] + by);
+        } else {
+            glsl_expression_text(tree, number, put, sizeof put - 8);
+            strcat(put, by > 0 ? " + 1" : " - 1");
+            strcat(put, at->type == GLSL_INT ? "" : ".0");
+        }
+        mutation_put(tree, number, put, &was);
+        glsl_expression_text(tree, node, text, sizeof text);
+        mutation_take_back(tree, number, &was);
         take(context, &(Form){.text = text});
     }
 }
@@ -48,7 +57,7 @@ void forms_turns(GlslTree *tree, int node, FormTake *take, void *context)
     const GlslNode *at = &tree->nodes[node];
     if (at->kind == GLSL_BINARY && at->op >= GLSL_LESS && at->op <= GLSL_GREATER_EQUAL &&
         tree->nodes[forms_parent(tree, node)].kind == GLSL_FOR)
-        add_one(tree, node, tree->nodes[at->first].type, take, context);
+        add_one(tree, node, tree->nodes[at->first].next, take, context);
 }
 
 void forms_begins(GlslTree *tree, int node, FormTake *take, void *context)
@@ -56,7 +65,7 @@ void forms_begins(GlslTree *tree, int node, FormTake *take, void *context)
     const int above = forms_parent(tree, node);
     const int loop = forms_parent(tree, forms_parent(tree, above));
     if (tree->nodes[above].kind == GLSL_VARIABLE_NODE && tree->nodes[loop].kind == GLSL_FOR)
-        add_one(tree, node, tree->nodes[node].type, take, context);
+        add_one(tree, node, node, take, context);
 }
 
 /* Other lights. */
@@ -250,4 +259,25 @@ void forms_moves(GlslTree *tree, int node, FormTake *take, void *context)
         return;
     move(&moves, outer, tree->nodes[around].next, around, "in", "after");
     move(&moves, outer, around, around, "in", "before");
+}
+
+/* Exponents. */
+
+/* Whether the variable is in the second argument of a power below the node. */
+static bool is_exponent(const GlslTree *tree, int node, int symbol, bool within)
+{
+    const GlslNode *at = &tree->nodes[node];
+    const bool power = at->kind == GLSL_BUILT_IN && GLSL_FUNCTIONS[at->symbol].id == GLSL_POW;
+    bool found = within && at->kind == GLSL_NAME && at->symbol == symbol;
+    for (int i = at->first; i && !found; i = tree->nodes[i].next)
+        found = is_exponent(tree, i, symbol, within || (power && i != at->first));
+    return found;
+}
+
+void forms_exponents(GlslTree *tree, int node, FormTake *take, void *context)
+{
+    const GlslNode *at = &tree->nodes[node], *above = &tree->nodes[forms_parent(tree, node)];
+    if (at->type == GLSL_FLOAT && above->kind == GLSL_VARIABLE_NODE &&
+        is_exponent(tree, tree->root, above->symbol, false))
+        take(context, &(Form){.text = "1.0"});
 }

@@ -40,6 +40,9 @@ FormsEach forms_moves;
 /* The node that it is a child of; 0: none. */
 int forms_parent(const GlslTree *tree, int node);
 
+/* 1, for what a variable begins with that is the exponent of a power. */
+FormsEach forms_exponents;
+
 /* A variable, an element or a component. */
 bool forms_is_name(const GlslNode *node);
 

@@ -16,6 +16,7 @@ enum {
     KEPT = 200,
     SAME = 3,
     WITH_ANY = 9,
+    SHARING = 4,
     MOST_PAIRS = 5000, /* half a second */
     MOST_ANY = 8000,
     SEEN = 6,
@@ -28,6 +29,7 @@ typedef struct Step {
     Mutation mutation;
     GlslStage stage;
     char *text, *put;
+    int gain;            /* of the goal's values */
     double score, print; /* print: steps that compute the same have the same */
     PointShader shader;  /* open when it is asked for */
 } Step;
@@ -38,7 +40,9 @@ typedef struct Search {
     PointShader *base, *goal; /* what is changed, until it computes what */
     const double *numbers;    /* that changes try */
     int number_count;
-    Step steps[KEPT + 1];
+    bool general; /* only changes that try no name and no number */
+    Step steps[KEPT + 1], sharing[SHARING];
+    int sharing_count; /* those that compute most of the goal's values */
     int step_count, first, pairs, best_rank;
     bool any;              /* each second change is tried */
     Term views[MAX_VIEWS]; /* all of the light; then its terms */
@@ -155,6 +159,26 @@ static void keep(Search *search, const Step *step)
         close_step(&search->steps[--search->step_count]);
 }
 
+static void keep_sharing(Search *search, const Step *step)
+{
+    Step *steps = search->sharing;
+    int at = search->sharing_count;
+    for (int i = 0; i < at; i++)
+        if (fabs(steps[i].print - step->print) <= 1e-9 * (1 + fabs(step->print)))
+            return;
+    for (; at > 0 && steps[at - 1].gain < step->gain; at--)
+        if (at < SHARING)
+            steps[at] = steps[at - 1];
+        else
+            close_step(&steps[at - 1]);
+    if (at == SHARING)
+        return;
+    steps[at] = *step;
+    steps[at].text = memory_text(step->text);
+    steps[at].put = memory_text(step->put);
+    search->sharing_count += search->sharing_count < SHARING;
+}
+
 static bool open_changed(const Search *search, const char *text, PointShader *shader)
 {
     return mend_open(search->all, text, search->mends, shader);
@@ -174,7 +198,8 @@ static bool is_curve_of_shadow(const Derivation *all, const Mutation *mutation)
 static bool is_left_out(const Search *search, const Mutation *mutation)
 {
     const bool added = !mutation->general && strstr(mutation->by, mutation->was);
-    return mutation->moves || (search->likely && !mutation->likely) || (!search->mends && added) ||
+    return mutation->moves || (search->general && !mutation->general) ||
+           (search->likely && !mutation->likely) || (!search->mends && added) ||
            (search->mends && mend_is_given(search->all, mutation)) ||
            is_curve_of_shadow(search->all, mutation);
 }
@@ -192,7 +217,10 @@ static bool try_first(void *context, const Mutation *mutation, const char *text)
                  .text = (char *)text,
                  .put = (char *)mutation->put};
     step.score = look(search, pair, &step.print);
-    step.score += 1.5 * (count_shared(search, pair) - search->shared);
+    step.gain = count_shared(search, pair) - search->shared;
+    step.score += 1.5 * step.gain;
+    if (search->mends && step.gain > 0 && mutation->general)
+        keep_sharing(search, &step);
     if (step.score > 0.2 || search->likely)
         keep(search, &step);
     point_shader_close(&shader);
@@ -309,6 +337,29 @@ static void try_any(Search *search)
     }
 }
 
+/* What computes a value of the right program may look farther from it, and so may each of two
+ * changes whose mistakes make up for each other. */
+static void try_sharing(Search *search)
+{
+    search->pairs = 0;
+    search->general = true;
+    search->likely = false;
+    for (int i = 0; i < search->sharing_count && !search->all->two_found; i++) {
+        const Step kept = search->steps[0];
+        search->first = 0;
+        search->steps[0] = search->sharing[i];
+        try_pairs(search);
+        search->sharing[i] = search->steps[0];
+        search->steps[0] = kept;
+    }
+    search->likely = true;
+    for (int i = WITH_ANY; i < search->step_count && !search->all->two_found; i++) {
+        search->first = i;
+        if (search->steps[i].score != search->steps[i - 1].score)
+            try_pairs(search);
+    }
+}
+
 /* The second step where the first has been put. */
 static void try_after(Search *search, int first, const Step *second)
 {
@@ -379,9 +430,13 @@ bool two_find(Derivation *all, TwoOf of)
     try_all_steps(search);
     if (!all->two_found && of != TWO_LIKELY)
         try_any(search);
+    if (!all->two_found && mends)
+        try_sharing(search);
     all->mended_twice = mends && all->two_found;
     for (int i = 0; i < search->step_count; i++)
         close_step(&search->steps[i]);
+    for (int i = 0; i < search->sharing_count; i++)
+        close_step(&search->sharing[i]);
     free(search->values);
     free(search);
     return all->two_found;
