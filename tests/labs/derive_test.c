@@ -168,7 +168,7 @@ static const struct {
     {8, 1, "(u_Attenuation.x + u_Attenuation.y * distance + u_Attenuation.z * distance * distance)",
      "u_Attenuation.x + u_Attenuation.y * distance + u_Attenuation.z * distance * distance",
      "parentheses missing: u_Attenuation.x + u_Attenuation.y * distance + u_Attenuation.z * ..."},
-    {9, 1, "gl_FrontFacing == (u_Mirrored > 0.0)", "(gl_FrontFacing || u_Mirrored < 0.0)",
+    {9, 1, "gl_FrontFacing == u_Mirrored > 0.0", "(gl_FrontFacing || u_Mirrored < 0.0)",
      "gl_FrontFacing || u_Mirrored < 0.0 for gl_FrontFacing != u_Mirrored < 0.0"},
     {5, 1, "int i = 0", "int i = 1", "turns of the loop: 1 for 0"},
     {7, 1, "lightDirection + viewDirection",

@@ -171,7 +171,8 @@ static bool end_condition(Reader *reader)
     if (!end_branch(reader) || (!condition->otherwise && !end_branch(reader)))
         return false;
     reader->depth -= reader->depth > 0;
-    add_hash(&reader->conditions[reader->depth], condition->first);
+    if (condition->first)
+        add_hash(&reader->conditions[reader->depth], condition->first);
     return true;
 }
 
