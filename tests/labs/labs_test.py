@@ -571,8 +571,11 @@ class Holes(Labs):
             mistakes.HIGHP,
             "#ifdef GL_ES\n#ifdef GL_FRAGMENT_PRECISION_HIGH\n#define P highp // __VERSION__\n"
             "#else\n#define P mediump\n#endif\nprecision P float;\n#endif\n"
-            "#ifdef GL_FRAGMENT_PRECISION_HIGH\nconst float unused = 1.0;\n"
-            "#else\nconst mediump float unused = 1.0;\n#endif\n",
+        )
+        lights = "uniform vec3 u_LightPosition[2];"
+        texts["lab05.frag"] = texts["lab05.frag"].replace(
+            lights,
+            f"#ifdef GL_FRAGMENT_PRECISION_HIGH\n{lights}\n#else\n{lights.replace('vec3', 'mediump vec3')}\n#endif\n",
         )
         self.assertEqual(check_texts(5, texts)["verdict"], "right")
 

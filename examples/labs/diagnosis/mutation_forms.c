@@ -160,18 +160,18 @@ static void add_item(const GlslTree *tree, const Chain *chain, int i, bool group
     add(text, grouped ? "(%.500s)" : "%.500s", item);
 }
 
-/* Items from `first` to `last`, with parentheses around those from `from` to `to`, or without those
- * of `open`. */
-static void put_chain(const GlslTree *tree, const Chain *chain, int first, int last,
-                      const int range[2], int open, char text[TEXT_SIZE])
+/* Items from `at[0]` to `at[1]`, with parentheses around those from `at[2]` to `at[3]`, or without
+ * those of `open`. */
+static void put_chain(const GlslTree *tree, const Chain *chain, const int at[4], int open,
+                      char text[TEXT_SIZE])
 {
     text[0] = '\0';
-    for (int i = first; i <= last; i++) {
-        if (i > first)
+    for (int i = at[0]; i <= at[1]; i++) {
+        if (i > at[0])
             add_op(text, chain->ops[i]);
-        add(text, "%s", i == range[0] ? "(" : "");
+        add(text, "%s", i == at[2] ? "(" : "");
         add_item(tree, chain, i, chain->grouped[i] && i != open, text);
-        add(text, "%s", i == range[1] ? ")" : "");
+        add(text, "%s", i == at[3] ? ")" : "");
     }
 }
 
@@ -200,8 +200,8 @@ void forms_brackets(GlslTree *tree, int node, FormTake *take, void *context)
             lowest = own < lowest ? own : lowest;
             if (!matters(&chain, from, to, lowest))
                 continue;
-            put_chain(tree, &chain, 0, chain.count - 1, (int[]){from, to}, -1, text);
-            put_chain(tree, &chain, from, to, (int[]){-1, -1}, -1, inner);
+            put_chain(tree, &chain, (int[]){0, chain.count - 1, from, to}, -1, text);
+            put_chain(tree, &chain, (int[]){from, to, -1, -1}, -1, inner);
             take(context, &(Form){.text = text, .name = inner});
         }
     }
@@ -217,7 +217,7 @@ void forms_unbrackets(GlslTree *tree, int node, FormTake *take, void *context)
         char text[TEXT_SIZE], inner[TEXT_SIZE] = "";
         if (!chain.grouped[i] || !matters(&chain, i, i, strength(&tree->nodes[chain.nodes[i]])))
             continue;
-        put_chain(tree, &chain, 0, chain.count - 1, (int[]){-1, -1}, i, text);
+        put_chain(tree, &chain, (int[]){0, chain.count - 1, -1, -1}, i, text);
         add_item(tree, &chain, i, false, inner);
         take(context, &(Form){.text = text, .name = inner});
     }

@@ -171,8 +171,11 @@ static bool end_condition(Reader *reader)
     if (!end_branch(reader) || (!condition->otherwise && !end_branch(reader)))
         return false;
     reader->depth -= reader->depth > 0;
+    Condition *outer = &reader->conditions[reader->depth];
+    if (!outer->token[0])
+        memcpy(outer->token, condition->token, sizeof outer->token);
     if (condition->first)
-        add_hash(&reader->conditions[reader->depth], condition->first);
+        add_hash(outer, condition->first);
     return true;
 }
 
