@@ -140,16 +140,17 @@ static bool is_there(Derivation *all, const Found *found, PointShader *const men
 }
 
 /* Below 0: a is the better change: right to the last digit, and not by a formula instead of all;
- * where the first wrong value is; without an operand twice; of the likelier rule; the earlier one;
- * the smaller one. */
+ * not of a variable computed anew; where the first wrong value is; without an operand twice; of the
+ * likelier rule; the earlier one; the smaller one. */
 static int compare(const Derivation *all, const Found *a, const Found *b)
 {
     const GlslPlace *place = &all->own[a->stage].tree->nodes[a->mutation.node].place;
     const GlslPlace *other = &all->own[b->stage].tree->nodes[b->mutation.node].place;
     const bool exact = a->apart <= DERIVATION_EQUAL && !a->mutation.formula;
     const bool other_exact = b->apart <= DERIVATION_EQUAL && !b->mutation.formula;
-    return exact != other_exact   ? (int)other_exact - (int)exact
-           : a->there != b->there ? (int)b->there - (int)a->there
+    return exact != other_exact                   ? (int)other_exact - (int)exact
+           : a->mutation.anew != b->mutation.anew ? (int)a->mutation.anew - (int)b->mutation.anew
+           : a->there != b->there                 ? (int)b->there - (int)a->there
            : a->mutation.doubled != b->mutation.doubled
                ? (int)a->mutation.doubled - (int)b->mutation.doubled
            : a->mutation.rank != b->mutation.rank ? a->mutation.rank - b->mutation.rank
@@ -182,7 +183,8 @@ bool mend_try(Derivation *all, const Mutation *mutation, const char *text)
     const char *texts[2] = {NULL};
     texts[all->stage] = text;
     if (found.apart <= all->tolerance)
-        found.there = mutation->moves || is_there(all, &found, pair);
+        found.there =
+            (mutation->moves && strstr(mutation->by, "loop")) || is_there(all, &found, pair);
     const bool better = found.apart <= all->tolerance &&
                         (!all->mended || compare(all, &found, &all->mending) < 0) &&
                         mend_passes(all, texts);

@@ -286,6 +286,7 @@ static void make(Maker *maker, int rule)
     char *text = maker->form && maker->form->whole
                      ? memory_text(maker->form->whole)
                      : memory_format("%s%s%s", maker->before, put, maker->after);
+    mutation.anew = RULES[rule].kind == OTHER_LIGHT;
     mutation.moves = maker->form && maker->form->whole;
     mutation.put = put;
     mutation.doubled = strcmp(RULES[rule].by, "@") == 0 && stands_beside(maker, maker->name);
