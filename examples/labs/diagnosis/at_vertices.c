@@ -102,6 +102,7 @@ typedef struct Varying {
                   [4]; /* what is assigned, one corner after the other */
     int count, at;
     const double *weights;
+    bool bent;        /* it is not just of another length than what is interpolated */
     int symbol, from; /* the varying; the event from which on values are computed at the point */
 } Varying;
 
@@ -114,27 +115,35 @@ static void record(GlslRun *run, const GlslEvent *event, void *observer)
     varying->count++;
 }
 
+static bool is_parallel(const double *a, const double *b)
+{
+    const double cross[] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                            a[0] * b[1] - a[1] * b[0]};
+    const double all = fabs(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
+    return fabs(cross[0]) + fabs(cross[1]) + fabs(cross[2]) <= 1e-6 * all;
+}
+
 static void blend(GlslRun *run, const GlslEvent *event, void *observer)
 {
     Varying *varying = observer;
     const int each = varying->count / POINT_CORNERS, at = varying->at++ % each;
-    double length = 0, *to = run->registers + event->first;
+    double mixed[4] = {0}, length = 0, *to = run->registers + event->first;
     bool unit = event->count == 3;
-    if (event->count > 4 || at >= varying->from)
-        return;
-    for (int k = 0; k < event->count; k++)
-        to[k] = 0;
     for (int c = 0; c < POINT_CORNERS; c++) {
         const double *numbers = varying->numbers[c * each + at];
-        for (int k = 0; k < event->count; k++)
-            to[k] += varying->weights[c] * numbers[k];
+        for (int k = 0; k < event->count && k < 4; k++)
+            mixed[k] += varying->weights[c] * numbers[k];
         unit &= fabs(numbers[0] * numbers[0] + numbers[1] * numbers[1] + numbers[2] * numbers[2] -
                      1) < 1e-9;
     }
+    if (event->symbol == varying->symbol && at >= varying->from)
+        varying->bent |= event->count != 3 || !is_parallel(mixed, to);
+    if (event->count > 4 || at >= varying->from)
+        return;
     for (int k = 0; k < 3 && unit; k++)
-        length += to[k] * to[k];
-    for (int k = 0; k < 3 && length > 0; k++)
-        to[k] /= sqrt(length);
+        length += mixed[k] * mixed[k];
+    for (int k = 0; k < event->count; k++)
+        to[k] = mixed[k] / (length > 0 ? sqrt(length) : 1);
 }
 
 /* Runs the submission with the varying as it is computed at the point, and all others as they are.
@@ -175,6 +184,7 @@ static bool run_with(Derivation *all, Varying *varying, int point, double number
 static bool is_right_with(Derivation *all, Varying *varying)
 {
     bool right = true;
+    varying->bent = false;
     all->own[0].run->observer = varying;
     for (int i = 0; i < all->points.count && right; i++) {
         const int point = all->order[i];
@@ -186,7 +196,7 @@ static bool is_right_with(Derivation *all, Varying *varying)
     }
     all->own[0].at_once = false;
     all->own[0].run->assigned = NULL;
-    return right;
+    return right && varying->bent;
 }
 
 bool at_vertices_explain_own(Derivation *all, Verdict *verdict)
@@ -194,20 +204,24 @@ bool at_vertices_explain_own(Derivation *all, Verdict *verdict)
     PointShader *vertex = &all->own[0];
     Values *values = memory_new(1, sizeof *values);
     Varying *varying = memory_new(1, sizeof *varying);
+    GlslEvent events[MOST_EVENTS];
     char name[64], place[VERDICT_SENTENCE_SIZE];
     bool found = false;
     values_trace(&all->points, vertex, &all->own[1], all->order[0], values);
-    for (int i = 0; i < values->count && !found; i++) {
-        const GlslSymbol *symbol = &vertex->tree->symbols[values->items[i].symbol];
-        varying->symbol = values->items[i].symbol;
-        if (values->items[i].stage != GLSL_VERTEX || symbol->storage != GLSL_VARYING)
+    const int count =
+        vertex->run->event_count < MOST_EVENTS ? vertex->run->event_count : MOST_EVENTS;
+    memcpy(events, vertex->run->events, (size_t)count * sizeof *events);
+    for (int i = 0; i < count && !found; i++) {
+        const GlslSymbol *symbol = &vertex->tree->symbols[events[i].symbol];
+        varying->symbol = events[i].symbol;
+        if (symbol->storage != GLSL_VARYING)
             continue;
         for (varying->from = i; varying->from >= 0 && !found; varying->from--)
             found = is_right_with(all, varying);
         if (!found)
             continue;
         snprintf(name, sizeof name, "%.40s at the vertices", symbol->name);
-        derivation_place(all, GLSL_VERTEX, values->items[i].node, place, sizeof place);
+        derivation_place(all, GLSL_VERTEX, events[i].node, place, sizeof place);
         verdict_add_mistake(verdict, name,
                             "It is computed at the vertices and interpolated: the mesh shows.",
                             place, 0.9);
