@@ -216,12 +216,14 @@ void viewer_use_keys(Viewer *viewer)
         return;
     if (input->typed_count)
         viewer_panel_notice(&viewer->panel, NULL); /* it has been seen */
-    for (int i = 0; i < input->typed_count; i++)
-        type(viewer, input->typed[i]);
     const int frames = input->pressed[WINDOW_KEY_RIGHT] - input->pressed[WINDOW_KEY_LEFT];
     const int seconds = input->pressed[WINDOW_KEY_UP] - input->pressed[WINDOW_KEY_DOWN];
     if (frames || seconds)
         step(viewer, frames / viewer->options.fps + seconds);
+    /* After the steps, which a slow frame may have with them: what is saved is what they lead to.
+     */
+    for (int i = 0; i < input->typed_count; i++)
+        type(viewer, input->typed[i]);
     const ExampleKind *kind = example_kind(viewer->example);
     if (kind->turn_page && kind->turn_page(viewer->example, input->pressed[WINDOW_KEY_PAGE_DOWN] -
                                                                 input->pressed[WINDOW_KEY_PAGE_UP]))

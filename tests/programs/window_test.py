@@ -21,6 +21,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
 
@@ -530,6 +531,14 @@ class Keys(Case):
         picture = shown.save()
         self.assertEqual(orbit_of(picture), (0, 90, 0.1))
         self.assert_headless(picture, MOVING)
+
+    def test_keys_of_one_frame(self):
+        """As a slow one has them."""
+        shown = self.show("-t", "50", "-s", "300x300")
+        shown.process.send_signal(signal.SIGSTOP)
+        shown.key("Up", "Up")
+        threading.Timer(0.5, shown.process.send_signal, (signal.SIGCONT,)).start()
+        self.assertGreater(seconds_of(shown.save()), 52)
 
     def test_r_resets(self):
         shown = self.show("-t", "50", "-s", "300x300", "--orbit", "5,6")
