@@ -83,7 +83,7 @@ static bool present(Viewer *viewer, const Image *image, Message *message)
     const Image *shown = viewer_pixel_image(viewer);
     image = shown ? shown : map ? map : image;
     if (image)
-        done = canvas_present_image(image, from_below, message);
+        done = canvas_present_image(image, image->width, from_below, message);
     else
         canvas_present(viewer->canvas, from_below);
     done = done && viewer_before_present(viewer, from_below, message);

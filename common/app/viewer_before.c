@@ -34,23 +34,11 @@ void viewer_before_toggle(Viewer *viewer)
                         message.text[0] ? message.text : "left of the pointer: as it was until b");
 }
 
-/* Its columns left of the line, as an image of their own. */
-static bool cut(const Image *before, int columns, Image *part, Message *message)
-{
-    if (!image_open(part, columns, before->height, before->type, message))
-        return false;
-    const size_t row = image_row_size(part), whole = image_row_size(before);
-    for (size_t y = 0; y < (size_t)before->height; y++)
-        memcpy((char *)part->pixels + y * row, (char *)before->pixels + y * whole, row);
-    return true;
-}
-
 bool viewer_before_present(Viewer *viewer, const int place[4], Message *message)
 {
     const WindowInput *input = &viewer->input;
     const Image *before = &viewer->before;
     const double at = (input->x - place[0]) / place[2], row = input->y - viewer->place[1];
-    Image part = {0};
     if (!before->pixels)
         return true;
     if (at >= 0 && at <= 1 && row >= 0 && row < place[3])
@@ -58,9 +46,7 @@ bool viewer_before_present(Viewer *viewer, const int place[4], Message *message)
     /* The window may have another size by now. */
     const int columns = (int)round(viewer->division * before->width);
     const int left[4] = {place[0], place[1], columns * place[2] / before->width, place[3]};
-    const bool done = columns == 0 || (cut(before, columns, &part, message) &&
-                                       canvas_present_image(&part, left, message));
-    image_close(&part);
+    const bool done = columns == 0 || canvas_present_image(before, columns, left, message);
     glEnable(GL_SCISSOR_TEST);
     glScissor(left[0] + left[2], left[1], 1, left[3]);
     glClearColor(1, 1, 1, 1);

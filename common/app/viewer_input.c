@@ -209,26 +209,47 @@ static void type(Viewer *viewer, unsigned character)
     }
 }
 
+static void press(Viewer *viewer, WindowKey key)
+{
+    const ExampleKind *kind = example_kind(viewer->example);
+    const bool forward = key == WINDOW_KEY_RIGHT || key == WINDOW_KEY_UP;
+    switch (key) {
+    case WINDOW_KEY_LEFT:
+    case WINDOW_KEY_RIGHT:
+        step(viewer, (forward ? 1 : -1) / viewer->options.fps);
+        break;
+    case WINDOW_KEY_UP:
+    case WINDOW_KEY_DOWN:
+        step(viewer, forward ? 1 : -1);
+        break;
+    case WINDOW_KEY_PAGE_UP:
+    case WINDOW_KEY_PAGE_DOWN:
+        if (kind->turn_page &&
+            kind->turn_page(viewer->example, key == WINDOW_KEY_PAGE_DOWN ? 1 : -1))
+            viewer_renew(viewer);
+        break;
+    case WINDOW_KEY_ESCAPE:
+        viewer->left = true;
+        break;
+    default:
+        break;
+    }
+}
+
+/* In order, of which a slow frame has many. */
 void viewer_use_keys(Viewer *viewer)
 {
     const WindowInput *input = &viewer->input;
     if (viewer->panel.result.wants_keys)
         return;
-    if (input->typed_count)
+    for (int i = 0; i < input->typed_count; i++) {
+        if (input->typed[i] >= WINDOW_TYPED_KEY) {
+            press(viewer, input->typed[i] - WINDOW_TYPED_KEY);
+            continue;
+        }
         viewer_panel_notice(&viewer->panel, NULL); /* it has been seen */
-    const int frames = input->pressed[WINDOW_KEY_RIGHT] - input->pressed[WINDOW_KEY_LEFT];
-    const int seconds = input->pressed[WINDOW_KEY_UP] - input->pressed[WINDOW_KEY_DOWN];
-    if (frames || seconds)
-        step(viewer, frames / viewer->options.fps + seconds);
-    /* After the steps, which a slow frame may have with them: what is saved is what they lead to.
-     */
-    for (int i = 0; i < input->typed_count; i++)
         type(viewer, input->typed[i]);
-    const ExampleKind *kind = example_kind(viewer->example);
-    if (kind->turn_page && kind->turn_page(viewer->example, input->pressed[WINDOW_KEY_PAGE_DOWN] -
-                                                                input->pressed[WINDOW_KEY_PAGE_UP]))
-        viewer_renew(viewer);
-    viewer->left |= input->pressed[WINDOW_KEY_ESCAPE] > 0;
+    }
 }
 
 /* Takes the light at whose point the left button went down, and moves it until the button goes up.

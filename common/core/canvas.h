@@ -123,10 +123,11 @@ void canvas_set_attribute(const CanvasAttribute *attribute); /* binds its buffer
  * are not reported for a window: GLFW cannot request that. */
 bool canvas_check(const Canvas *canvas, Message *message);
 
-/* Copies what was drawn, or an image of bytes, to framebuffer 0 of a window and leaves that bound:
- * to a rectangle x, y, width, height, from the lower left. Interpolates if the sizes differ. */
+/* Copies what was drawn, or an image's first columns, to framebuffer 0 of a window and leaves that
+ * bound: to a rectangle x, y, width, height, from the lower left. Interpolates if the sizes differ.
+ */
 void canvas_present(const Canvas *canvas, const int place[4]);
-bool canvas_present_image(const Image *image, const int place[4], Message *message);
+bool canvas_present_image(const Image *image, int columns, const int place[4], Message *message);
 
 /* Resolves, reads back and flips the rows: row 0 is the top. `image` must have the canvas's size,
  * and the type IMAGE_FLOAT for a real canvas, else IMAGE_BYTE. Reports any GL error since the last

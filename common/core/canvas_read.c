@@ -119,18 +119,19 @@ void canvas_present(const Canvas *canvas, const int place[4])
     present(canvas->width * side, canvas->height * side, place, false);
 }
 
-bool canvas_present_image(const Image *image, const int place[4], Message *message)
+bool canvas_present_image(const Image *image, int columns, const int place[4], Message *message)
 {
+    const bool real = image->type == IMAGE_FLOAT;
     GLuint texture = 0, framebuffer = 0;
     glGenTextures(1, &texture);
     glBindTexture(GL_TEXTURE_2D, texture);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, image->width, image->height, 0, GL_RGBA,
-                 GL_UNSIGNED_BYTE, image->pixels);
+    glTexImage2D(GL_TEXTURE_2D, 0, real ? GL_RGBA32F_EXT : GL_RGBA, image->width, image->height, 0,
+                 GL_RGBA, real ? GL_FLOAT : GL_UNSIGNED_BYTE, image->pixels);
     glBindTexture(GL_TEXTURE_2D, 0);
     glGenFramebuffers(1, &framebuffer);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
-    present(image->width, image->height, place, true);
+    present(columns, image->height, place, true);
     glDeleteFramebuffers(1, &framebuffer);
     glDeleteTextures(1, &texture);
     const GLenum error = glGetError();

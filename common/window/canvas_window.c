@@ -83,6 +83,12 @@ static const int KEYS[WINDOW_KEY_COUNT] = {
     [WINDOW_KEY_PAGE_DOWN] = GLFW_KEY_PAGE_DOWN,
 };
 
+static void add_typed(WindowInput *input, unsigned typed)
+{
+    if (input->typed_count < WINDOW_MAX_TYPED)
+        input->typed[input->typed_count++] = typed;
+}
+
 static void on_key(GLFWwindow *handle, int key, int scancode, int action, int modifiers)
 {
     WindowInput *input = pending(handle);
@@ -92,16 +98,14 @@ static void on_key(GLFWwindow *handle, int key, int scancode, int action, int mo
     for (int i = 0; i < WINDOW_KEY_COUNT; i++) {
         if (KEYS[i] == key && action != GLFW_RELEASE) {
             input->down[i] = true;
-            input->pressed[i]++;
+            add_typed(input, WINDOW_TYPED_KEY + (unsigned)i);
         }
     }
 }
 
 static void on_character(GLFWwindow *handle, unsigned character)
 {
-    WindowInput *input = pending(handle);
-    if (input->typed_count < WINDOW_MAX_TYPED)
-        input->typed[input->typed_count++] = character;
+    add_typed(pending(handle), character);
 }
 
 static void on_button(GLFWwindow *handle, int button, int action, int modifiers)
@@ -312,7 +316,6 @@ void window_input(Window *window, double seconds, WindowInput *input)
     input->scroll = events->scroll;
     input->typed_count = events->typed_count;
     memcpy(input->typed, events->typed, sizeof input->typed);
-    memcpy(input->pressed, events->pressed, sizeof input->pressed);
     for (int i = 0; i < WINDOW_BUTTONS; i++)
         input->buttons[i] |= events->buttons[i];
     for (int i = 0; i < WINDOW_KEY_COUNT; i++)

@@ -95,7 +95,8 @@ void take_input(const PanelInput &input)
     }
 #endif
     for (int i = 0; i < window.typed_count; i++)
-        io.AddInputCharacter(window.typed[i]);
+        if (window.typed[i] < WINDOW_TYPED_KEY)
+            io.AddInputCharacter(window.typed[i]);
 }
 
 bool popup_open()

@@ -41,7 +41,8 @@ typedef enum WindowKey {
     WINDOW_KEY_COUNT,
 } WindowKey;
 
-enum { WINDOW_MAX_TYPED = 64, WINDOW_BUTTONS = 3 };
+/* Where it stands among what was typed, a key is above all Unicode characters. */
+enum { WINDOW_MAX_TYPED = 256, WINDOW_TYPED_KEY = 0x110000, WINDOW_BUTTONS = 3 };
 
 /* Events since the last call, and the current state. Lengths are framebuffer pixels, of which a
  * screen unit may have several; y is 0 at the top. */
@@ -57,8 +58,7 @@ typedef struct WindowInput {
     double scroll;                    /* notches, positive away from the user */
     bool control, shift;              /* held */
     bool down[WINDOW_KEY_COUNT];      /* down, or pressed and released since */
-    int pressed[WINDOW_KEY_COUNT];    /* how often, with repeats */
-    unsigned typed[WINDOW_MAX_TYPED]; /* Unicode characters, in order */
+    unsigned typed[WINDOW_MAX_TYPED]; /* characters, and WINDOW_TYPED_KEY + keys, in order */
     int typed_count;
 } WindowInput;
 

@@ -202,10 +202,10 @@ class Shown:
         self.key("space")
         wait_for(lambda: self.title().endswith("paused"), "a pause")
 
-    def save(self):
-        """Its picture, which the key s has it save."""
+    def save(self, *keys):
+        """Its picture, which the key s has it save, alone or among others."""
         before = self.said()
-        self.key("s")
+        self.key(*(keys or "s"))
         said = wait_for(lambda: self.said()[len(before):].endswith("\n") and self.said(),
                         "a saved picture")[len(before):]
         found = re.fullmatch(rf"{self.program}: saved (.*); the same without a window: (.*)\n", said)
@@ -533,12 +533,13 @@ class Keys(Case):
         self.assert_headless(picture, MOVING)
 
     def test_keys_of_one_frame(self):
-        """As a slow one has them."""
-        shown = self.show("-t", "50", "-s", "300x300")
+        """As a slow one has them: each counts in its turn."""
+        shown = self.show("-t", "50", "-s", "300x300", paused=True)
+        begin = seconds_of(shown.save())
         shown.process.send_signal(signal.SIGSTOP)
-        shown.key("Up", "Up")
         threading.Timer(0.5, shown.process.send_signal, (signal.SIGCONT,)).start()
-        self.assertGreater(seconds_of(shown.save()), 52)
+        self.assertAlmostEqual(seconds_of(shown.save("Up", "Up", "s", "Up")), begin + 2, delta=0.0015)
+        self.assertAlmostEqual(seconds_of(shown.save()), begin + 3, delta=0.0015)
 
     def test_r_resets(self):
         shown = self.show("-t", "50", "-s", "300x300", "--orbit", "5,6")
@@ -848,6 +849,15 @@ class Panel(Case):
         self.server.xdotool("mousemove", *AWAY)
         shown.key("b")
         wait_for(lambda: self.visible(shown) == after, "the picture alone")
+
+    def test_before_and_after_of_floats(self):
+        shown = self.show("-s", "400x300", "-o", "a.exr", paused=True)
+        above = lambda: crop(self.visible(shown), 400, (0, 0, 200, 120))
+        seen = above()
+        self.assertGreater(len(set(seen)), 2)
+        shown.key("b")
+        wait_for(lambda: set(crop(self.visible(shown), 400, (200, 0, 1, 120))) == {255}, "a white line")
+        self.assertEqual(above(), seen)
 
     def test_letters_grow_and_the_panel_with_them(self):
         shown = self.show("-s", "300x200", program=SCENE, paused=True)
