@@ -156,8 +156,9 @@ const char *nearest(Parser *parser, const char *name, int kind)
 {
     const char *names[NAMES_MAX + 1];
     int count = 0;
-    for (int i = 0; i < parser->names.count && count < NAMES_MAX && !parser->tree->limits.silent;
-         i++) {
+    if (parser->tree->limits.silent)
+        return NULL;
+    for (int i = 0; i < parser->names.count && count < NAMES_MAX; i++) {
         const Name *item = &parser->names.items[i];
         const GlslSymbol *symbol = &parser->tree->symbols[item->symbol];
         if (item->symbol && symbol->kind == kind && item->kept)

@@ -1,6 +1,7 @@
 /* Values are compared as numbers, not as names: what a submission calls l, the right program calls
  * lightDirection. */
 #include "labs/diagnosis/derivation.h"
+#include "labs/diagnosis/mutation_forms.h"
 
 #include "base/memory.h"
 #include "base/text.h"
@@ -111,14 +112,14 @@ int values_count_other(const GlslTree *a, const GlslTree *b)
     return sum;
 }
 
-/* Of an operand; a number alone says nothing. */
-static int parent_of(const GlslTree *tree, int node)
+/* What a sentence shows: of a number, which alone says nothing, the expression that it is in. */
+static int shown_at(const GlslTree *tree, int node)
 {
-    for (int i = 1; i < tree->node_count; i++)
-        for (int k = tree->nodes[i].first; k; k = tree->nodes[k].next)
-            if (k == node && tree->nodes[i].kind <= GLSL_CONSTRUCT)
-                return i;
-    return node;
+    const GlslNode *at = &tree->nodes[node];
+    const int above = at->kind == GLSL_LITERAL ? forms_parent(tree, node) : 0;
+    return at->kind == GLSL_VARIABLE_NODE || at->kind == GLSL_EXPRESSION ? at->first
+           : above > 0 && tree->nodes[above].kind <= GLSL_CONSTRUCT      ? above
+                                                                         : node;
 }
 
 void derivation_place(const Derivation *all, GlslStage stage, int node, char *text, size_t size)
@@ -131,10 +132,7 @@ void derivation_place(const Derivation *all, GlslStage stage, int node, char *te
     const char *path = source->file_count ? source->files[file] : "", *slash = strrchr(path, '/');
     char code[512];
     const bool named = at->kind == GLSL_VARIABLE_NODE;
-    const int shown = named || at->kind == GLSL_EXPRESSION ? at->first
-                      : at->kind == GLSL_LITERAL           ? parent_of(tree, node)
-                                                           : node;
-    glsl_expression_text(tree, shown, code, sizeof code);
+    glsl_expression_text(tree, shown_at(tree, node), code, sizeof code);
     text_shorten(code, 76);
     snprintf(text, size, "line %d of %s: %s%s%s", at->place.line, slash ? slash + 1 : path,
              named ? tree->symbols[at->symbol].name : "", named ? " = " : "", code);

@@ -31,9 +31,12 @@ enum {
     MOVE,
     EXPONENT
 };
-static FormsEach *const EACH[] = {forms_exchanges, forms_brackets, forms_unbrackets, forms_spreads,
-                                  forms_logic,     forms_turns,    forms_begins,     forms_lights,
-                                  forms_moves,     forms_exponents};
+static FormsEach *const EACH[] = {
+    [EXCHANGE - EXCHANGE] = forms_exchanges,   [BRACKET - EXCHANGE] = forms_brackets,
+    [UNBRACKET - EXCHANGE] = forms_unbrackets, [SPREAD - EXCHANGE] = forms_spreads,
+    [LOGIC - EXCHANGE] = forms_logic,          [TURNS - EXCHANGE] = forms_turns,
+    [BEGINS - EXCHANGE] = forms_begins,        [OTHER_LIGHT - EXCHANGE] = forms_lights,
+    [MOVE - EXCHANGE] = forms_moves,           [EXPONENT - EXCHANGE] = forms_exponents};
 
 typedef struct Rule {
     int kind, op; /* `op`: of a built-in function its number, -1: any; of one component: 1 for

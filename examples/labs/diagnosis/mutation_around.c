@@ -238,11 +238,13 @@ static void move(const Move *move, int to, int before, int around, const char *w
 
 void forms_moves(GlslTree *tree, int node, FormTake *take, void *context)
 {
+    if (tree->nodes[node].kind != GLSL_EXPRESSION)
+        return;
     const int block = forms_parent(tree, node), around = forms_parent(tree, block);
     const Move moves = {tree, node, block, take, context};
-    if (tree->nodes[node].kind != GLSL_EXPRESSION || tree->nodes[block].kind != GLSL_BLOCK)
-        return;
     int before = 0, after = 0; /* the nearest ones */
+    if (tree->nodes[block].kind != GLSL_BLOCK)
+        return;
     bool passed = false;
     for (int i = tree->nodes[block].first; i; i = tree->nodes[i].next) {
         passed |= i == node;
@@ -276,8 +278,10 @@ static bool is_exponent(const GlslTree *tree, int node, int symbol, bool within)
 
 void forms_exponents(GlslTree *tree, int node, FormTake *take, void *context)
 {
-    const GlslNode *at = &tree->nodes[node], *above = &tree->nodes[forms_parent(tree, node)];
-    if (at->type == GLSL_FLOAT && above->kind == GLSL_VARIABLE_NODE &&
-        is_exponent(tree, tree->root, above->symbol, false))
+    const GlslNode *at = &tree->nodes[node];
+    if (at->type != GLSL_FLOAT)
+        return;
+    const GlslNode *above = &tree->nodes[forms_parent(tree, node)];
+    if (above->kind == GLSL_VARIABLE_NODE && is_exponent(tree, tree->root, above->symbol, false))
         take(context, &(Form){.text = "1.0"});
 }

@@ -137,6 +137,16 @@ static bool is_top(const GlslTree *tree, int node, int weakest)
             (above->first == node ? own < other : own <= other));
 }
 
+/* Of a node at the top of one. */
+static bool open_chain(const GlslTree *tree, int node, int weakest, Chain *chain)
+{
+    const bool top = is_top(tree, node, weakest);
+    chain->count = 0;
+    if (top)
+        take_chain(tree, node, weakest, 0, chain);
+    return top;
+}
+
 static void add(char text[TEXT_SIZE], const char *form, const char *put)
 {
     const size_t used = strlen(text);
@@ -188,10 +198,9 @@ static bool matters(const Chain *chain, int from, int to, int lowest)
 
 void forms_brackets(GlslTree *tree, int node, FormTake *take, void *context)
 {
-    Chain chain = {.count = 0};
-    if (!is_top(tree, node, SUM))
+    Chain chain;
+    if (!open_chain(tree, node, SUM, &chain))
         return;
-    take_chain(tree, node, SUM, 0, &chain);
     for (int from = 0; from < chain.count; from++) {
         int lowest = ATOM;
         for (int to = from + 1; to < chain.count; to++) {
@@ -209,10 +218,9 @@ void forms_brackets(GlslTree *tree, int node, FormTake *take, void *context)
 
 void forms_unbrackets(GlslTree *tree, int node, FormTake *take, void *context)
 {
-    Chain chain = {.count = 0};
-    if (!is_top(tree, node, SUM))
+    Chain chain;
+    if (!open_chain(tree, node, SUM, &chain))
         return;
-    take_chain(tree, node, SUM, 0, &chain);
     for (int i = 0; i < chain.count; i++) {
         char text[TEXT_SIZE], inner[TEXT_SIZE] = "";
         if (!chain.grouped[i] || !matters(&chain, i, i, strength(&tree->nodes[chain.nodes[i]])))
@@ -268,10 +276,9 @@ static void take_terms(const GlslTree *tree, int node, int op, Chain *sum)
 
 void forms_spreads(GlslTree *tree, int node, FormTake *take, void *context)
 {
-    Chain chain = {.count = 0};
-    if (!is_top(tree, node, PRODUCT))
+    Chain chain;
+    if (!open_chain(tree, node, PRODUCT, &chain))
         return;
-    take_chain(tree, node, PRODUCT, 0, &chain);
     for (int s = 0; s < chain.count; s++) {
         Chain sum = {.count = 0};
         if (!chain.grouped[s] || chain.ops[s] == GLSL_DIVIDE)

@@ -37,11 +37,11 @@ FormsEach forms_lights;
 /* A statement before, behind or in a loop or an `if` near it. */
 FormsEach forms_moves;
 
-/* The node that it is a child of; 0: none. */
-int forms_parent(const GlslTree *tree, int node);
-
 /* 1, for what a variable begins with that is the exponent of a power. */
 FormsEach forms_exponents;
+
+/* The node that it is a child of; 0: none. */
+int forms_parent(const GlslTree *tree, int node);
 
 /* A variable, an element or a component. */
 bool forms_is_name(const GlslNode *node);
