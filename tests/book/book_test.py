@@ -93,6 +93,19 @@ class Figures(unittest.TestCase):
                         self.assertGreaterEqual(len(re.findall(r"^:   ", text, re.MULTILINE)), 2)
 
 
+    def test_each_step_of_the_lecture_has_its_change(self):
+        """As lessons.c lists them, once, in a chapter that shows the later program."""
+        text = pathlib.Path(SOURCE, "examples/lessons/lessons.c").read_text(encoding="utf-8")
+        steps = [(before, after) for after, before in re.findall(r"^    X\((\w+), &(\w+)\)", text, re.MULTILINE)]
+        self.assertEqual(len(steps), text.count("    X(") - 1)  # the first has no predecessor
+        shown = [(*figure.words, chapter) for chapter in CHAPTERS for figure in chapter.figures if figure.kind == "change"]
+        self.assertEqual(sorted(step[:2] for step in shown), sorted(steps))
+        for _, after, chapter in shown:
+            with self.subTest(after):
+                drawn = [*book.commands(chapter.text), *filter(None, chapter.commands())]
+                self.assertIn(after, [command.split()[0] for command in drawn])
+
+
 class Diagrams(unittest.TestCase):
     def test_a_short_diagram_is_the_same(self):
         """Each point within a tenth: half of it by the outline's beginning, half by the point's place from there."""
