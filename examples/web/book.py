@@ -13,7 +13,7 @@ A chapter is Markdown with formulas in TeX, and
     QUESTION `OPTIONS`                                  what the reader expects when these options are set in the figure
     :   ANSWER                                          above, or in the program that is named
     $$ A, \\qquad B \\allowbreak + C $$                  a formula, which may be broken there
-    [NUMBER]{check="EXPRESSION"}                        a number that tests/book computes again
+    [NUMBER]{check="EXPRESSION"}                        a number that tests/book computes again; which others may stand: prose.py
     <!-- place: HEADING; HEADING -->                    what the section above shows of places.txt
     <!-- at: NAME = {NAME} ... -->                      below a formula: its numbers at the pixel that is clicked (terms.js)
 """
@@ -102,10 +102,10 @@ def suffix(program):
 
 
 class Chapter:
-    def __init__(self, path):
+    def __init__(self, path, text):
         self.path = path
         self.number = int(path.stem[:2])
-        self.text = path.read_text(encoding="utf-8")
+        self.text = text
         self.title = re.match(r"# (.*)\n", self.text)[1]
         self.name = f"chapter{self.number:02}"
         self.figures = [Figure(self.number, i + 1, found) for i, found in enumerate(FIGURE.finditer(self.text))]
@@ -133,7 +133,7 @@ class Chapter:
 
 
 def chapters():
-    return [Chapter(path) for path in sorted(FOLDER.glob("[0-9][0-9]-*.md"))]
+    return [Chapter(path, path.read_text(encoding="utf-8")) for path in sorted(FOLDER.glob("[0-9][0-9]-*.md"))]
 
 
 def plot():
@@ -244,7 +244,7 @@ def numbers(chapter):
     if not chapter.checks:
         return ""
     rows = "".join(f'<tr><td>{html.escape(value)}</td><td><code>{html.escape(how)}</code></td></tr>'
-                   for value, how in chapter.checks)
+                   for value, how in dict.fromkeys(chapter.checks))
     return ('<details class="numbers"><summary>Where the numbers of this chapter come from</summary>\n<p>A test computes each again, '
             'from the programs, and fails if it is another one.</p><div class="wide" tabindex="0" role="group" aria-label="Numbers">'
             f'<table><tr><th scope="col">number</th><th scope="col">computed by</th></tr>{rows}</table></div></details>')

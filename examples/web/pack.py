@@ -26,6 +26,7 @@ import sys
 
 import book
 import markdown
+import prose
 
 INDEX = ["lighting.js", "module.js", "index.js"]
 PROGRAM = ["lighting.js", "module.js", "worker.js", "png.js", "zip.js", "link.js", "controls.js", "editor.js",
@@ -314,6 +315,8 @@ def write_book():
     all_chapters = book.chapters()
     pointed = [*POINTED, "terms.js"]
     for at, chapter in enumerate(all_chapters):
+        left = prose.unmarked(chapter)
+        assert not left, f"{chapter.path.name}: numbers that nothing computes: {left}"
         scripts = [f"{kind}.js" for kind in ("formula", "precision") if f"]({kind}:" in chapter.text] + BOOK
         write(site / f"{chapter.name}.html",
               fill("chapter.html", title=html.escape(book.plain(chapter.title)), links=beside(all_chapters, at),

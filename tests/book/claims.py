@@ -8,6 +8,7 @@ import math
 import os
 import pathlib
 import re
+import statistics
 import subprocess
 import sys
 
@@ -92,6 +93,25 @@ def operations(effect, column=3):
     return page("examples/study/tables/costs.md", rf"\| {re.escape(effect)} (?:\|[^|]*){{{column - 1}}}\| (\d+) ")
 
 
+def bits(precision):
+    """Of a number on the study's device."""
+    return page("examples/study/tables/precision.md", rf"\| {precision}\b[^|]*\| (\d+) \|")
+
+
+def parameter(program, option, pattern):
+    """A pattern's part in what --help says of an option."""
+    text = re.search(rf"^ +--{option} (.*?)(?=^ +-|^$|\Z)", run(program, "--help").decode(), re.DOTALL | re.MULTILINE)[1]
+    return re.search(pattern, re.sub(r"\|\s+", "|", " ".join(text.split())))[1]
+
+
+def default(program, option):
+    return float(parameter(program, option, r"default ([\d.]+)"))
+
+
+def choices(program, option):
+    return parameter(program, option, r"([\w|]+)").split("|")
+
+
 def rows(heading, path="examples/study/tables/accuracy.md"):
     """Of the first table after a heading, the cells of each row but the first."""
     table = re.search(r"(?:^\|.*\n)+", pathlib.Path(SOURCE, path).read_text(encoding="utf-8").partition("\n" + heading)[2], re.MULTILINE)
@@ -108,6 +128,11 @@ def column(heading, number, row=""):
     return [float(words[0]) for words in cells if words and words[0] != "same"]
 
 
+def models(name, number):
+    """Of the study's comparison of two models of the highlight, the numbers of a column."""
+    return [float(cells[number]) for cells in rows("Phong and Blinn-Phong on a sphere") if cells[0] == name]
+
+
 def unit(*vector):
     length = math.sqrt(sum(x * x for x in vector))
     return tuple(x / length for x in vector)
@@ -119,7 +144,8 @@ def dot(a, b):
 
 NAMES = {name: value for name, value in vars(math).items() if not name.startswith("_")}
 NAMES.update({function.__name__: function for function in (size, pixels, pixel, colours, difference, changed, error, largest, rms,
-                                                          rms_of_all, said, page, rows, cell, column, operations, unit, dot)},
+                                                          rms_of_all, said, page, rows, cell, column, operations, unit, dot,
+                                                          bits, default, choices, models, statistics.median)},
              sorted=sorted, abs=abs, max=max, min=min, round=round, sum=sum, len=len, set=set, any=any, all=all, int=int, zip=zip, range=range)
 
 

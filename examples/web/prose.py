@@ -1,0 +1,34 @@
+"""The numbers in the text of a chapter: each is computed from an expression, [NUMBER]{check="EXPRESSION"}, or of one of these kinds.
+
+In code or a formula; of a chapter, lab, figure or section; a year; a version; the bits in a format's name; an end of a scale (0 and 1,
+or 255 for a byte), not a count; of the options of the figure that the caption, question or answer is about; or what a computed number
+in the same paragraph is computed from.
+"""
+import re
+
+import book
+
+QUIET = re.compile(r"^```.*?^```|\$\$.*?\$\$|\$[^$]*\$|`[^`]*`|\]\([^)]*\)|<!--.*?-->|\{#[^}]*\}", re.DOTALL | re.MULTILINE)
+NAMES = re.compile(r"\b(?:[Cc]hapter|[Ll]ab|[Ff]igure|[Ss]ection)\s+\d+(?:\.\d+)*|^#+ \d+\.(?= )|\bin (?:19|20)\d\d\b|"
+                   r"\b(?:OpenGL(?: ES)?|WebGL|GLSL(?: ES)?|IEEE)\s+\d+(?:\.\d+)?|\b\d+-bit\b", re.MULTILINE)
+COUNTED = ("step", "pixel", "degree", "percent", "%", "time", "bit", "byte", "digit", "operation", "vert", "corner", "face", "triangle",
+           "division", "slice", "stack", "texel", "sample", "frame", "ms", "second", "unit", "lamp", "light", "colour", "material", "scene")
+SCALE = re.compile(rf"\b1/255\b|\bof\s+255\b|(?<![\d.,/])(?:0|1|255)\b(?![./]\d|\s*(?:{'|'.join(COUNTED)}))")
+NUMBER = re.compile(r"\d+(?:\.\d+)?")
+QUESTION = re.compile(r"^.*`([^`]+)`\n+:   ", re.MULTILINE)
+
+
+def unmarked(chapter):
+    """The numbers that are neither computed nor of a kind, each with what stands around it."""
+    found, figures, known = [], iter(chapter.figures), set()
+    for block in re.split(r"\n\s*\n", re.sub(r"^```.*?^```", "", chapter.text, flags=re.DOTALL | re.MULTILINE)):
+        if book.FIGURE.match(block):
+            figure = next(figures)
+            known = set(NUMBER.findall(" ".join([*figure.words, *figure.parts.values()])))
+        about = known if book.FIGURE.match(block) or "\n:   " in block else set()
+        options = [number for words in QUESTION.findall(block) for number in NUMBER.findall(words)]
+        computed_from = [number for _, expression in book.CHECK.findall(block) for number in NUMBER.findall(expression)]
+        text = SCALE.sub(" ", NAMES.sub(" ", QUIET.sub(" ", book.CHECK.sub(" ", block))))
+        found += [" ".join(text[max(0, number.start() - 30):number.end() + 20].split()) for number in NUMBER.finditer(text)
+                  if number[0] not in {*about, *options, *computed_from}]
+    return found
