@@ -155,13 +155,11 @@ static float *read_texels(GLuint texture, int width, int height)
     return texels;
 }
 
-static void note_sampling(CaptureTexture *texture)
+static void note_wrapping(CaptureTexture *texture)
 {
-    GLint filter = GL_NEAREST, wrap[2] = {GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE};
-    glGetTexParameteriv(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, &filter);
+    GLint wrap[2] = {GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE};
     glGetTexParameteriv(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, &wrap[0]);
     glGetTexParameteriv(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, &wrap[1]);
-    texture->linear = filter == GL_LINEAR;
     for (int i = 0; i < 2; i++)
         texture->repeats[i] = wrap[i] == GL_REPEAT;
 }
@@ -190,7 +188,7 @@ static CaptureTexture *texture_of(int unit)
         texture->texels = size->format == GL_RGBA || size->format == GL_RGB
                               ? read_texels(name, size->width, size->height)
                               : NULL;
-        note_sampling(texture);
+        note_wrapping(texture);
     }
     glActiveTexture((GLenum)active);
     return texture;
@@ -332,9 +330,6 @@ static void note_state(CaptureDraw *draw)
     draw->cull_face = bound(GL_CULL_FACE_MODE);
     draw->front_face = bound(GL_FRONT_FACE);
     glGetFloatv(GL_LINE_WIDTH, &draw->line_width);
-    glGetFloatv(GL_POLYGON_OFFSET_FACTOR, &draw->offset[0]);
-    glGetFloatv(GL_POLYGON_OFFSET_UNITS, &draw->offset[1]);
-    draw->offsets = glIsEnabled(GL_POLYGON_OFFSET_FILL);
 }
 
 /* False: into another framebuffer, which may be a texture's. */

@@ -37,7 +37,7 @@ typedef struct CaptureTexture {
     GLuint name;
     int width, height, moment;
     float *texels; /* red, green, blue, alpha; the first row is at 0; NULL: it cannot be read */
-    bool linear, repeats[2];
+    bool repeats[2];
 } CaptureTexture;
 
 typedef struct CaptureDraw {
@@ -52,8 +52,7 @@ typedef struct CaptureDraw {
     int viewport[4], scissor[4];
     bool scissors, blends, tests_depth, writes_depth, culls, tests_stencil, colors[4];
     GLenum depth_func, cull_face, front_face;
-    bool offsets;                /* the depth of triangles */
-    float line_width, offset[2]; /* factor, units */
+    float line_width;
 } CaptureDraw;
 
 typedef struct Capture {
