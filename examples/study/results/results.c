@@ -108,19 +108,18 @@ static const char *line_end(const char *text, const char *end, const char **next
     return stop > text && stop[-1] == '\r' ? stop - 1 : stop;
 }
 
-static bool header_find(Header *header, const char *path, const char *text, const char *end,
-                        const char **next, Message *message)
+static bool header_check(const char *path, const char *text, const char *end, const char **next,
+                         Message *message)
 {
-    Fault fault;
-    if (end - text >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0) /* some programs begin so */
-        text += 3;
-    const char *stop = line_end(text, end, next);
-    if (header_parse(header, text, stop, &fault))
+    char header[RESULTS_HEADER_SIZE];
+    header_text(header);
+    const size_t size = (size_t)(line_end(text, end, next) - text);
+    if (size == strlen(header) && memcmp(text, header, size) == 0)
         return true;
     return message_set(message,
-                       "%s: is not a file of results of this version (%s); name another "
-                       "folder, or move it away",
-                       path, fault.text);
+                       "%s: is not a file of results of this version; name another folder, or move "
+                       "it away",
+                       path);
 }
 
 static bool same_measurement(const ResultRow *a, const ResultRow *b)
@@ -139,21 +138,20 @@ static bool same_measurement(const ResultRow *a, const ResultRow *b)
 bool results_parse(Results *results, const char *path, const char *text, size_t size,
                    const ResultRow *like, Message *message)
 {
-    Header header;
     int broken = 0, other = 0, number = 1;
     const char *next = text, *end = text + size;
     if (size == 0 || is_cut_header(text, size))
         return true;
-    if (!header_find(&header, path, text, end, &next, message))
+    if (!header_check(path, text, end, &next, message))
         return false;
     while (next && next < end) {
         ResultRow row;
-        Fault fault;
+        Message fault = {0};
         const char *line = next, *stop = line_end(line, end, &next);
         number++;
         if (stop == line)
             continue;
-        if (!row_parse(&row, &header, line, stop, &fault)) {
+        if (!row_parse(&row, line, stop, &fault)) {
             if (broken++ < MAX_LINES)
                 fprintf(stderr, "%s:%d: %s; skipped\n", path, number, fault.text);
         } else if (like && !same_measurement(&row, like)) {
@@ -261,10 +259,9 @@ static void put_row(FILE *file, const ResultRow *row)
 static bool row_check(const ResultRow *row, const char *path, const char *text, size_t size,
                       Message *message)
 {
-    const Header header = header_ours();
     ResultRow again;
-    Fault fault;
-    if (row_parse(&again, &header, text, text + size - 1, &fault))
+    Message fault = {0};
+    if (row_parse(&again, text, text + size - 1, &fault))
         return true;
     return message_set(message, "%s: a row of scene \"%.31s\": %s; not written", path, row->scene,
                        fault.text);
@@ -308,15 +305,9 @@ static bool tail_find(Tail *tail, int file, const char *path, Message *message)
         tail->header = true;
         return true;
     }
-    Header header;
     const char *next;
-    if (!header_find(&header, path, start, start + used, &next, message))
+    if (!header_check(path, start, start + used, &next, message))
         return false;
-    if (!header.ours)
-        return message_set(message,
-                           "%s: its columns are not those of this version; name another "
-                           "folder, or move it away",
-                           path);
     if (status.st_size > 0 && pread(file, &last, 1, status.st_size - 1) != 1)
         return message_set(message, "%s: cannot read: %s", path, strerror(errno));
     tail->line_break = last != '\n';

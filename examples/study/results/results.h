@@ -65,26 +65,12 @@ Column column_at(int number);
 /* The value of a column, in the fewest digits that round-trip; "" if unknown. */
 void column_text(const ResultRow *row, const Column *column, char text[RESULTS_FIELD_SIZE]);
 
-/* What is wrong with a line, in printable characters. */
-typedef struct Fault {
-    char text[256];
-} Fault;
-
-/* For each of a file's columns, which of ours it is; -1: none. */
-typedef struct Header {
-    int columns[128];
-    int count;
-    bool ours; /* exactly our columns, in our order */
-} Header;
-
-/* Our header; the same as text, without line break. */
-Header header_ours(void);
+/* The names of the columns, as a file's first line has them, without line break. */
 void header_text(char text[RESULTS_HEADER_SIZE]);
 
-/* `end` is the end of the line, without line break. */
-bool header_parse(Header *header, const char *line, const char *end, Fault *fault);
-bool row_parse(ResultRow *row, const Header *header, const char *line, const char *end,
-               Fault *fault);
+/* Reads a row; `end` is the end of its line, without line break. The message has only printable
+ * characters, whatever the line has. */
+bool row_parse(ResultRow *row, const char *line, const char *end, Message *message);
 
 /* The largest file that is read, in bytes; a row has a few hundred. */
 enum { RESULTS_SIZE_MAX = 64 << 20 };
@@ -114,7 +100,7 @@ const ResultRow *results_of(const Results *results, const char *scene, const cha
 const ResultRow **results_latest(const Results *results, const char *scene, int *count);
 
 /* Adds the rows of a file that results_append wrote; a missing file has none. The file is CSV (RFC
- * 4180): a line with the columns, in any order, then one line per row; no field has a line break;
+ * 4180): a line with the columns, then one line per row; no field has a line break;
  * an empty field is unknown. A truncated, malformed or out-of-range row is skipped, with one line
  * on standard error for each of the first ten and one for the rest. Rows with another renderer,
  * number of threads or size than `like` (may be NULL) are skipped, with one line for all. False

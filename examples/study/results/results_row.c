@@ -4,7 +4,6 @@
 
 #include <limits.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -104,46 +103,35 @@ void column_text(const ResultRow *row, const Column *column, char text[RESULTS_F
     }
 }
 
-__attribute__((format(printf, 2, 3))) static bool fault_set(Fault *fault, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(fault->text, sizeof fault->text, format, arguments);
-    va_end(arguments);
-    for (char *p = fault->text; *p; p++) /* the file may hold anything */
-        if ((unsigned char)*p < ' ' || (unsigned char)*p > 126)
-            *p = '?';
-    return false;
-}
-
 /* Reads a field; `*next` moves behind the comma, or is NULL after the last field. */
 static bool read_field(const char **next, const char *end, char field[RESULTS_FIELD_SIZE],
-                       Fault *fault)
+                       Message *message)
 {
     const char *p = *next;
     const bool quoted = p < end && *p == '"';
     size_t used = 0;
     for (p += quoted;; p++) {
         if (p == end && quoted)
-            return fault_set(fault, "a quote does not end");
+            return message_set(message, "a quote does not end");
         if (quoted && *p == '"' && !(p + 1 < end && p[1] == '"'))
             break;
         if (!quoted && (p == end || *p == ','))
             break;
         if (!quoted && *p == '"')
-            return fault_set(fault, "a quote within a field");
+            return message_set(message, "a quote within a field");
         if (quoted && *p == '"')
             p++;
         if (*p == '\0')
-            return fault_set(fault, "a zero byte");
+            return message_set(message, "a zero byte");
         if (used + 1 >= RESULTS_FIELD_SIZE)
-            return fault_set(fault, "a field of more than %d characters", RESULTS_FIELD_SIZE - 1);
+            return message_set(message, "a field of more than %d characters",
+                               RESULTS_FIELD_SIZE - 1);
         field[used++] = *p;
     }
     field[used] = '\0';
     p += quoted;
     if (p < end && *p != ',')
-        return fault_set(fault, "text after a quote");
+        return message_set(message, "text after a quote");
     *next = p < end ? p + 1 : NULL;
     return true;
 }
@@ -157,7 +145,7 @@ static bool parse_integer(const char *text, double min, double max, long long *v
     return (double)*value >= min && (double)*value <= max;
 }
 
-static bool parse_choice(ResultRow *row, const Column *column, const char *text, Fault *fault)
+static bool parse_choice(ResultRow *row, const Column *column, const char *text, Message *message)
 {
     const QualityAxisInfo *axis = &QUALITY_AXES[column->axis];
     for (int i = 0; i < axis->count; i++) {
@@ -166,42 +154,42 @@ static bool parse_choice(ResultRow *row, const Column *column, const char *text,
             return true;
         }
     }
-    return fault_set(fault, "%s \"%.32s\": no such choice", column->name, text);
+    return message_set(message, "%s \"%.32s\": no such choice", column->name, text);
 }
 
-static bool parse_text(void *field, const Column *column, const char *text, Fault *fault)
+static bool parse_text(void *field, const Column *column, const char *text, Message *message)
 {
     const size_t length = strlen(text);
     if (length < (size_t)column->min || length >= column->size)
-        return fault_set(fault, "%s \"%.32s\": must have %.0f to %zu characters", column->name,
-                         text, column->min, column->size - 1);
+        return message_set(message, "%s \"%.32s\": must have %.0f to %zu characters", column->name,
+                           text, column->min, column->size - 1);
     for (const char *p = text; *p; p++)
         if ((unsigned char)*p < ' ' || *p == 127)
-            return fault_set(fault, "%s \"%.32s\": a control character", column->name, text);
+            return message_set(message, "%s \"%.32s\": a control character", column->name, text);
     /* A scene's name becomes part of a file name. */
     if (column->offset == SCENE.offset && !(text[0] != '.' && !strchr(text, '/')))
-        return fault_set(fault, "%s \"%.32s\": must not begin with . or hold /", column->name,
-                         text);
+        return message_set(message, "%s \"%.32s\": must not begin with . or hold /", column->name,
+                           text);
     memcpy(field, text, length + 1);
     return true;
 }
 
-static bool parse_value(ResultRow *row, const Column *column, const char *text, Fault *fault)
+static bool parse_value(ResultRow *row, const Column *column, const char *text, Message *message)
 {
     void *field = (char *)row + column->offset;
     long long count = -1;
     double real = NAN;
     if (column->kind == COLUMN_TEXT)
-        return parse_text(field, column, text, fault);
+        return parse_text(field, column, text, message);
     if (column->kind == COLUMN_CHOICE)
-        return parse_choice(row, column, text, fault);
+        return parse_choice(row, column, text, message);
     const bool unknown = !text[0] && column->kind != COLUMN_SEED && column->min < 1;
     if (!unknown &&
         !(column->kind == COLUMN_REAL ? parse_number(text, column->min, column->max, &real)
                                       : parse_integer(text, column->min, column->max, &count)))
-        return fault_set(fault, "%s \"%.32s\": must be a %snumber from %.0f to %.0f", column->name,
-                         text, column->kind == COLUMN_REAL ? "" : "whole ", column->min,
-                         column->max);
+        return message_set(message, "%s \"%.32s\": must be a %snumber from %.0f to %.0f",
+                           column->name, text, column->kind == COLUMN_REAL ? "" : "whole ",
+                           column->min, column->max);
     if (column->kind == COLUMN_COUNT)
         *(int *)field = (int)count;
     else if (column->kind == COLUMN_LONG_COUNT)
@@ -213,65 +201,28 @@ static bool parse_value(ResultRow *row, const Column *column, const char *text, 
     return true;
 }
 
-bool header_parse(Header *header, const char *line, const char *end, Fault *fault)
+static bool parse_fields(ResultRow *row, const char *line, const char *end, Message *message)
 {
-    char field[RESULTS_FIELD_SIZE];
-    int place[RESULTS_COLUMNS];
-    *header = (Header){.count = 0};
-    memset(place, -1, sizeof place);
-    for (const char *next = line; next; header->count++) {
-        if (header->count == (int)(sizeof header->columns / sizeof header->columns[0]))
-            return fault_set(fault, "it has more than %d columns",
-                             (int)(sizeof header->columns / sizeof header->columns[0]));
-        if (!read_field(&next, end, field, fault))
-            return false;
-        header->columns[header->count] = -1;
-        for (int i = 0; i < RESULTS_COLUMNS; i++) {
-            if (strcmp(field, column_at(i).name) != 0)
-                continue;
-            if (place[i] >= 0)
-                return fault_set(fault, "it has two columns \"%s\"", field);
-            place[i] = header->columns[header->count] = header->count;
-            header->columns[header->count] = i;
-        }
-    }
-    header->ours = header->count == RESULTS_COLUMNS;
+    const char *next = line;
     for (int i = 0; i < RESULTS_COLUMNS; i++) {
-        if (place[i] < 0)
-            return fault_set(fault, "it has no column \"%s\"", column_at(i).name);
-        header->ours = header->ours && place[i] == i;
+        char field[RESULTS_FIELD_SIZE];
+        const Column column = column_at(i);
+        if (!next)
+            return message_set(message, "only %d of %d fields", i, RESULTS_COLUMNS);
+        if (!read_field(&next, end, field, message) || !parse_value(row, &column, field, message))
+            return false;
     }
-    return true;
+    return !next || message_set(message, "more than %d fields", RESULTS_COLUMNS);
 }
 
-bool row_parse(ResultRow *row, const Header *header, const char *line, const char *end,
-               Fault *fault)
+bool row_parse(ResultRow *row, const char *line, const char *end, Message *message)
 {
-    char field[RESULTS_FIELD_SIZE];
-    int count = 0;
     *row = (ResultRow){.seed = 0};
-    for (const char *next = line; next; count++) {
-        if (count == header->count)
-            return fault_set(fault, "more than %d fields", header->count);
-        if (!read_field(&next, end, field, fault))
-            return false;
-        if (header->columns[count] < 0)
-            continue;
-        const Column column = column_at(header->columns[count]);
-        if (!parse_value(row, &column, field, fault))
-            return false;
-    }
-    if (count < header->count)
-        return fault_set(fault, "only %d of %d fields", count, header->count);
-    return true;
-}
-
-Header header_ours(void)
-{
-    Header header = {.count = RESULTS_COLUMNS, .ours = true};
-    for (int i = 0; i < RESULTS_COLUMNS; i++)
-        header.columns[i] = i;
-    return header;
+    const bool done = parse_fields(row, line, end, message);
+    for (char *p = message->text; *p; p++) /* the file may hold anything */
+        if ((unsigned char)*p < ' ' || (unsigned char)*p > 126)
+            *p = '?';
+    return done;
 }
 
 void header_text(char text[RESULTS_HEADER_SIZE])
