@@ -158,7 +158,8 @@ static bool write_sheet(Subject *subject, const Quality *quality, bool small, co
     char text[QUALITY_TEXT_SIZE], caption[QUALITY_TEXT_SIZE + 320];
     if (!setting_picture_open(&picture, survey->renderer, &subject->made.scene, quality, message))
         return false;
-    const SettingError error = setting_picture_error(&picture, &subject->exact);
+    ResultRow error;
+    setting_picture_error(&picture, &subject->exact, &error);
     quality_text(quality, text);
     snprintf(caption, sizeof caption,
              "%s: %s. Interior: largest error %.2f, rms %.3f; all: rms %.2f. %s, LP_NUM_THREADS %s",
@@ -176,8 +177,8 @@ static bool write_pins(Subject *subject, const char *folder, Message *message)
     const Results *results = &subject->survey->results;
     ReportPins pins = {.count = 0};
     char path[PATH_MAX];
-    bool done = !has_errors(results, subject->name) ||
-                report_pins(&pins, results, subject->name, ERROR_INTERIOR_MAXIMUM, message);
+    bool done =
+        !has_errors(results, subject->name) || report_pins(&pins, results, subject->name, message);
     for (int i = 0; i < REPORT_PINS && done; i++) {
         report_pin_path(folder, subject->name, i, path);
         if (i < pins.count)
@@ -223,8 +224,7 @@ static bool write_tables(const Survey *survey, const Options *options, const cha
     output_text_open(&text);
     for (int i = 0; i < STUDY_SCENE_COUNT && done; i++)
         if (has_errors(&survey->results, STUDY_SCENES[i].name))
-            done = report_table(&survey->results, STUDY_SCENES[i].name, ERROR_INTERIOR_MAXIMUM,
-                                false, text.file, message);
+            done = report_table(&survey->results, STUDY_SCENES[i].name, false, text.file, message);
     fputs(more, text.file);
     if (done)
         return output_text_write(&text, in_folder(options, "table.txt", path), message);
@@ -254,8 +254,7 @@ static void draw_plots(const Survey *survey, const Options *options, const int *
     for (int i = 0; i < count; i++) {
         const StudySceneInfo *info = &STUDY_SCENES[scenes[i]];
         if (has_errors(&survey->results, info->name) &&
-            !report_plot(&survey->results, info->name, info->what, ERROR_INTERIOR_MAXIMUM,
-                         options->output, &message))
+            !report_plot(&survey->results, info->name, info->what, options->output, &message))
             break;
         if (progress)
             progress_update(progress, count + i + 1, 2 * count);
@@ -272,8 +271,8 @@ static bool print_tables(const Survey *survey, const int *scenes, int count, con
                          Message *message)
 {
     for (int i = 0; i < count && !markdown; i++)
-        if (!report_table(&survey->results, STUDY_SCENES[scenes[i]].name, ERROR_INTERIOR_MAXIMUM,
-                          !all_rows, stdout, message))
+        if (!report_table(&survey->results, STUDY_SCENES[scenes[i]].name, !all_rows, stdout,
+                          message))
             return false;
     if (markdown) {
         table_machine(survey->like.renderer, stdout);
@@ -362,8 +361,8 @@ static bool report_file(Survey *survey, const Options *options, Message *message
 {
     draw_plots(survey, options, &(int){STUDY_FILE}, 1, NULL, NULL);
     return draw_sheets(survey, options, STUDY_FILE, message) &&
-           report_table(&survey->results, STUDY_SCENES[STUDY_FILE].name, ERROR_INTERIOR_MAXIMUM,
-                        !all_rows, stdout, message);
+           report_table(&survey->results, STUDY_SCENES[STUDY_FILE].name, !all_rows, stdout,
+                        message);
 }
 
 /* --setting: one row, one sheet. */
@@ -378,8 +377,7 @@ static bool measure_one(Survey *survey, const Options *options, const Quality *q
     if (!done)
         return false;
     results_add(&results, &row);
-    done = report_table(&results, STUDY_SCENES[scene].name, ERROR_INTERIOR_MAXIMUM, false, stdout,
-                        message) &&
+    done = report_table(&results, STUDY_SCENES[scene].name, false, stdout, message) &&
            open_subject(&subject, survey, scene, message);
     if (done) {
         done = write_sheets(&subject, options, &sheet, 1, message);

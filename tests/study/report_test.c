@@ -63,8 +63,7 @@ static char *table(bool only_efficient)
     size_t size = 0;
     FILE *file = open_memstream(&text, &size);
     assert_non_null(file);
-    assert_true(
-        report_table(&results, "sphere", ERROR_INTERIOR_MAXIMUM, only_efficient, file, fresh()));
+    assert_true(report_table(&results, "sphere", only_efficient, file, fresh()));
     fclose(file);
     return text;
 }
@@ -162,14 +161,14 @@ TEST_WITH(0, a_table_stays_within_120_columns, enter, leave)
 
 TEST_WITH(0, no_rows_and_full_disks_are_reported, enter, leave)
 {
-    assert_false(report_table(&results, "cube", ERROR_ALL_RMS, false, stdout, fresh()));
+    assert_false(report_table(&results, "cube", false, stdout, fresh()));
     assert_string_equal(message.text, "cube: nothing was measured");
-    assert_false(report_plot(&results, "cube", "", ERROR_ALL_RMS, ".", fresh()));
+    assert_false(report_plot(&results, "cube", "", ".", fresh()));
     assert_string_equal(message.text, "cube: nothing was measured");
     add_four();
     FILE *full = fopen("/dev/full", "w");
     assert_non_null(full);
-    assert_false(report_table(&results, "sphere", ERROR_ALL_RMS, false, full, fresh()));
+    assert_false(report_table(&results, "sphere", false, full, fresh()));
     assert_non_null(strstr(message.text, "No space left on device"));
     fclose(full);
 }
@@ -201,7 +200,7 @@ static char *drawn(const char *name)
 
 static bool plot(const char *title)
 {
-    return report_plot(&results, "sphere", title, ERROR_INTERIOR_MAXIMUM, "out", fresh());
+    return report_plot(&results, "sphere", title, "out", fresh());
 }
 
 TEST_WITH(0, a_plot_names_the_efficient_ones, enter, leave)
@@ -296,7 +295,7 @@ TEST_WITH(0, a_plot_without_a_folder_is_refused, enter, leave)
     if (!has_gnuplot())
         skip();
     add_four();
-    assert_false(report_plot(&results, "sphere", "", ERROR_ALL_RMS, "nowhere", fresh()));
+    assert_false(report_plot(&results, "sphere", "", "nowhere", fresh()));
     assert_non_null(strstr(message.text, "nowhere/sphere.svg: the folder nowhere/ does not exist"));
     assert_false(report_curves(&(ReportAxes){"", "", "", false, false, NULL, false}, NULL, 0, "out",
                                "../x", fresh()));

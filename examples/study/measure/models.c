@@ -24,26 +24,23 @@ typedef struct Model {
     StudyScene made;
     Reference exact;
     SettingPicture drawing;
-    SettingError error;              /* of the drawn picture, from its own exact one */
+    ResultRow found;                 /* of the drawn picture, from its own exact one */
     double apart_rms, apart_maximum; /* of the exact picture from Phong's exact one, inside */
-    int operations;
     double milliseconds[ROUNDS];
 } Model;
 
 static bool open_model(Survey *survey, Model *model, int number, double shininess, Message *message)
 {
     const Quality usual = quality_usual();
-    SettingCounts counts;
     model->shininess = number == FITTED ? material_fitted_shininess(shininess) : shininess;
     study_shiny(&model->made, model->shininess,
                 number == PHONG ? REFLECTION_PHONG : REFLECTION_BLINN_PHONG);
     if (!survey_exact(survey, &model->made.scene, &model->exact, message) ||
         !setting_picture_open(&model->drawing, survey->renderer, &model->made.scene, &usual,
                               message) ||
-        !setting_picture_counts(&model->drawing, survey->renderer, &counts, message))
+        !setting_picture_counts(&model->drawing, survey->renderer, &model->found, message))
         return false;
-    model->error = setting_picture_error(&model->drawing, &model->exact);
-    model->operations = counts.fragment_operations;
+    setting_picture_error(&model->drawing, &model->exact, &model->found);
     return true;
 }
 
@@ -96,13 +93,13 @@ static void print_models(const Model models[MODELS], double phong, const ResultR
         const double lower = clock_quantile(ratios, ROUNDS, 0.25);
         const double upper = clock_quantile(ratios, ROUNDS, 0.75);
         table_row(table, "%s|%g|%.1f|%.2f|%.3f|%.2f|%.3f|%.3f|%.2f [%.2f, %.2f]|%d", NAMES[i],
-                  phong, model->shininess, model->error.interior_maximum, model->error.interior_rms,
+                  phong, model->shininess, model->found.interior_maximum, model->found.interior_rms,
                   model->apart_maximum, model->apart_rms, time, ratio, lower, upper,
-                  model->operations);
+                  model->found.fragment_operations);
         fprintf(csv, "%g,\"%s\",%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%d,\"%s\",\"%s\"\n",
-                phong, NAMES[i], model->shininess, model->error.interior_maximum,
-                model->error.interior_rms, model->apart_maximum, model->apart_rms, time, ratio,
-                lower, upper, model->operations, like->renderer, like->threads);
+                phong, NAMES[i], model->shininess, model->found.interior_maximum,
+                model->found.interior_rms, model->apart_maximum, model->apart_rms, time, ratio,
+                lower, upper, model->found.fragment_operations, like->renderer, like->threads);
     }
 }
 

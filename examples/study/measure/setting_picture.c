@@ -183,16 +183,16 @@ bool setting_picture_empty(SettingPicture *drawing, double *wall, Message *messa
     return true;
 }
 
-SettingError setting_picture_error(const SettingPicture *drawing, const Reference *exact)
+void setting_picture_error(const SettingPicture *drawing, const Reference *exact, ResultRow *row)
 {
     PictureError found = {.all = {0}};
     picture_error_add(&found, &drawing->image,
                       &(ExactView){.exact = exact, .scene = &drawing->made.scene});
-    return (SettingError){.interior_rms = error_sum_rms(&found.interior),
-                          .interior_maximum = found.interior.pixels ? found.interior.maximum : NAN,
-                          .all_rms = error_sum_rms(&found.all),
-                          .all_maximum = found.all.maximum,
-                          .interior_pixels = (int)found.interior.pixels};
+    row->interior_rms = error_sum_rms(&found.interior);
+    row->interior_maximum = found.interior.pixels ? found.interior.maximum : NAN;
+    row->all_rms = error_sum_rms(&found.all);
+    row->all_maximum = found.all.maximum;
+    row->interior_pixels = (int)found.interior.pixels;
 }
 
 /* -1: they cannot be counted. */
@@ -211,16 +211,17 @@ static bool is_covered(const Image *image, size_t pixel)
 }
 
 bool setting_picture_counts(const SettingPicture *drawing, SettingRenderer *renderer,
-                            SettingCounts *counts, Message *message)
+                            ResultRow *row, Message *message)
 {
     const Scene *scene = &drawing->made.scene;
     const int side = drawing->canvas->supersample;
-    *counts = (SettingCounts){.vertex_operations = -1, .fragment_operations = -1};
+    row->vertices = row->fragments = 0;
+    row->vertex_operations = row->fragment_operations = -1;
     for (int i = 0; i < scene->object_count; i++) {
         ShaderSource sources[2];
         const Object *object = &scene->objects[i];
         const bool flattened = scene->interpolation == INTERPOLATION_FLAT && !object->flat;
-        counts->vertices +=
+        row->vertices +=
             (long long)(flattened ? object->mesh->index_count : object->mesh->vertex_count);
         if (!lighting_sources(drawing->lighting, scene, object, false, sources, message))
             return false;
@@ -228,13 +229,13 @@ bool setting_picture_counts(const SettingPicture *drawing, SettingRenderer *rend
         const int fragment = count_operations(&sources[SHADER_FRAGMENT], SHADER_FRAGMENT);
         shader_source_close(&sources[SHADER_VERTEX]);
         shader_source_close(&sources[SHADER_FRAGMENT]);
-        if (vertex > counts->vertex_operations)
-            counts->vertex_operations = vertex;
-        if (fragment > counts->fragment_operations)
-            counts->fragment_operations = fragment;
+        if (vertex > row->vertex_operations)
+            row->vertex_operations = vertex;
+        if (fragment > row->fragment_operations)
+            row->fragment_operations = fragment;
     }
     for (size_t i = 0; i < (size_t)renderer->width * (size_t)renderer->height; i++)
-        counts->fragments += is_covered(&drawing->image, i) ? side * side : 0;
+        row->fragments += is_covered(&drawing->image, i) ? side * side : 0;
     return true;
 }
 

@@ -9,7 +9,7 @@
 
 #include "lighting/lighting.h"
 #include "reference/reference.h"
-#include "scene/quality.h"
+#include "study/results/results.h"
 
 /* Matrices composed in other ways than `lighting` does: in double precision, in single precision,
  * or in single precision with compensated dot products (Ogita, Rump and Oishi, Accurate sum and dot
@@ -52,23 +52,13 @@ bool setting_picture_frame(SettingPicture *drawing, SettingRenderer *renderer, d
 /* The same without the objects: clears, finishes, reads back. */
 bool setting_picture_empty(SettingPicture *drawing, double *wall, Message *message);
 
-/* The error of the last frame against the exact picture. */
-typedef struct SettingError {
-    double interior_rms, interior_maximum, all_rms, all_maximum; /* in steps of 1/255 */
-    int interior_pixels;
-} SettingError;
+/* Sets the row's errors: of the last frame against the exact picture. Interior: see
+ * pixel_is_interior. */
+void setting_picture_error(const SettingPicture *drawing, const Reference *exact, ResultRow *row);
 
-/* Interior: see pixel_is_interior. */
-SettingError setting_picture_error(const SettingPicture *drawing, const Reference *exact);
-
-/* Vertices and visible fragments of the last frame; operations per vertex and per
- * fragment of the costliest program, -1 if no tool counts them. */
-typedef struct SettingCounts {
-    long long vertices, fragments;
-    int vertex_operations, fragment_operations;
-} SettingCounts;
+/* Sets the row's counts: of the last frame; of operations -1 if no tool counts them. */
 bool setting_picture_counts(const SettingPicture *drawing, SettingRenderer *renderer,
-                            SettingCounts *counts, Message *message);
+                            ResultRow *row, Message *message);
 
 void setting_picture_close(SettingPicture *drawing);
 

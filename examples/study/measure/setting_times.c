@@ -326,22 +326,12 @@ static bool estimate(SettingTimes *times, SettingPicture *drawing, double *frame
 static bool look_at(SettingTimes *times, SettingPicture *drawing, ResultRow *row, double *frame,
                     Message *message)
 {
-    SettingCounts counts;
     *row = times->like;
     row->quality = drawing->quality;
     if (!estimate(times, drawing, frame, message) ||
-        !setting_picture_counts(drawing, times->renderer, &counts, message))
+        !setting_picture_counts(drawing, times->renderer, row, message))
         return false;
-    const SettingError error = setting_picture_error(drawing, times->exact);
-    row->interior_rms = error.interior_rms;
-    row->interior_maximum = error.interior_maximum;
-    row->all_rms = error.all_rms;
-    row->all_maximum = error.all_maximum;
-    row->interior_pixels = error.interior_pixels;
-    row->vertices = counts.vertices;
-    row->fragments = counts.fragments;
-    row->vertex_operations = counts.vertex_operations;
-    row->fragment_operations = counts.fragment_operations;
+    setting_picture_error(drawing, times->exact, row);
     return true;
 }
 

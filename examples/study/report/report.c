@@ -88,13 +88,8 @@ static int by_time(const void *first, const void *second)
     return memcmp(a->quality.choice, b->quality.choice, sizeof a->quality.choice);
 }
 
-static void put_head(FILE *file, const ResultRow *const *rows, int count, ErrorKind kind, bool busy)
+static void put_head(FILE *file, const ResultRow *const *rows, int count, bool busy)
 {
-    static const char *const kinds[] = {
-        [ERROR_INTERIOR_MAXIMUM] = "largest error inside the objects",
-        [ERROR_INTERIOR_RMS] = "RMS error inside the objects",
-        [ERROR_ALL_RMS] = "RMS error of all pixels",
-    };
     const ResultRow *first = rows[0];
     double min = NAN, max = NAN;
     for (int i = 0; i < count; i++) {
@@ -116,10 +111,9 @@ static void put_head(FILE *file, const ResultRow *const *rows, int count, ErrorK
                 100 * FRONT_NOISE_BOUND);
         return;
     }
-    fprintf(file,
-            "Errors in steps of 1/255. * efficient by the %s.\n"
-            "= tied: its median would make it efficient too, but that is within the noise.\n\n",
-            kinds[kind]);
+    fputs("Errors in steps of 1/255. * efficient by the largest error inside the objects.\n"
+          "= tied: its median would make it efficient too, but that is within the noise.\n\n",
+          file);
 }
 
 /* What a table shows. */
@@ -169,8 +163,8 @@ static void put_lines(FILE *file, const Shown *shown)
     }
 }
 
-bool report_table(const Results *results, const char *scene, ErrorKind kind, bool only_efficient,
-                  FILE *file, Message *message)
+bool report_table(const Results *results, const char *scene, bool only_efficient, FILE *file,
+                  Message *message)
 {
     Shown shown = {.only_efficient = only_efficient};
     bool done = true;
@@ -180,11 +174,11 @@ bool report_table(const Results *results, const char *scene, ErrorKind kind, boo
         return message_set(message, "%s: nothing was measured", scene);
     }
     shown.lines = memory_new((size_t)shown.count, sizeof *shown.lines);
-    front_open(&shown.front, results, scene, kind);
+    front_open(&shown.front, results, scene, ERROR_INTERIOR_MAXIMUM);
     qsort(shown.rows, (size_t)shown.count, sizeof *shown.rows, by_time);
     for (int i = 0; i < shown.count; i++)
         shown.lines[i] = line_of(shown.rows[i]);
-    put_head(file, shown.rows, shown.count, kind, shown.front.busy);
+    put_head(file, shown.rows, shown.count, shown.front.busy);
     put_lines(file, &shown);
     if (fflush(file) != 0 || ferror(file))
         done = message_set(message, "%s: cannot write the table: %s", scene, strerror(errno));

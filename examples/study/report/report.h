@@ -13,8 +13,8 @@
 
 /* A table of a scene's latest rows, sorted by time, with efficient and tied settings marked, unless
  * the machine was busy. `only_efficient`: only those; all where none is marked. */
-bool report_table(const Results *results, const char *scene, ErrorKind kind, bool only_efficient,
-                  FILE *file, Message *message);
+bool report_table(const Results *results, const char *scene, bool only_efficient, FILE *file,
+                  Message *message);
 
 /* The efficient rows of a scene whose pictures its plot shows, the cheapest first: both ends, and
  * others far from each other. `rows` belong to `results`. */
@@ -23,19 +23,18 @@ typedef struct ReportPins {
     const ResultRow *rows[REPORT_PINS];
     int count;
 } ReportPins;
-bool report_pins(ReportPins *pins, const Results *results, const char *scene, ErrorKind kind,
-                 Message *message);
+bool report_pins(ReportPins *pins, const Results *results, const char *scene, Message *message);
 
 /* The file of a pin's picture, which report_pair writes: FOLDER/SCENE-pin-NUMBER.png */
 void report_pin_path(const char *folder, const char *scene, int pin, char path[PATH_MAX]);
 
-/* FOLDER/SCENE.svg and .png, by gnuplot: error over time on logarithmic axes, a point per row,
- * coloured by interpolation, the efficient ones joined, and those with pins labelled, if there is
- * room, and joined to their pictures, as far as these files exist. Errors below 0.01 are drawn at
- * 0.01, and the axis says so. False if gnuplot is missing; the message names the package. The
- * folder must exist. */
-bool report_plot(const Results *results, const char *scene, const char *title, ErrorKind kind,
-                 const char *folder, Message *message);
+/* FOLDER/SCENE.svg and .png, by gnuplot: the largest error inside objects over time on logarithmic
+ * axes, a point per row, coloured by interpolation, the efficient ones joined, and those with pins
+ * labelled, if there is room, and joined to their pictures, as far as these files exist. Errors
+ * below 0.01 are drawn at 0.01, and the axis says so. False if gnuplot is missing; the message
+ * names the package. The folder must exist. */
+bool report_plot(const Results *results, const char *scene, const char *title, const char *folder,
+                 Message *message);
 
 /* The same for curves, named series of points. On a logarithmic axis values up to 0 are drawn at
  * the lower end, and its label says so. */

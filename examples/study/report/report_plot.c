@@ -27,14 +27,13 @@ typedef struct Plot {
     int count;
     Front front;
     ReportPins pins;
-    ErrorKind kind;
     double x_min, x_max, y_min, y_max;
     bool floored; /* an error is below FLOOR */
 } Plot;
 
-static double height_of(const Plot *plot, const ResultRow *row)
+static double height_of(const ResultRow *row)
 {
-    return fmax(row_error(row, plot->kind), FLOOR);
+    return fmax(row->interior_maximum, FLOOR);
 }
 
 static double y_of(const Plot *plot, double error)
@@ -46,7 +45,7 @@ static double y_of(const Plot *plot, double error)
 static Place place_of(const Plot *plot, const ResultRow *row)
 {
     const double x = log(row->time / plot->x_min) / log(plot->x_max / plot->x_min);
-    return (Place){MIN.x + x * (MAX.x - MIN.x), y_of(plot, height_of(plot, row))};
+    return (Place){MIN.x + x * (MAX.x - MIN.x), y_of(plot, height_of(row))};
 }
 
 static void plot_close(Plot *plot)
@@ -95,23 +94,22 @@ static void choose_pins(Plot *plot)
     free(pinned);
 }
 
-static bool plot_open(Plot *plot, const Results *results, const char *scene, ErrorKind kind,
-                      Message *message)
+static bool plot_open(Plot *plot, const Results *results, const char *scene, Message *message)
 {
     int count;
-    *plot = (Plot){.kind = kind, .x_min = INFINITY, .y_min = INFINITY, .x_max = 0, .y_max = 0};
+    *plot = (Plot){.x_min = INFINITY, .y_min = INFINITY, .x_max = 0, .y_max = 0};
     plot->rows = results_latest(results, scene, &count);
     for (int i = 0; i < count; i++) {
         const ResultRow *row = plot->rows[i];
-        const double error = row_error(row, kind);
+        const double error = row->interior_maximum;
         if (!isfinite(error) || !isfinite(row->time) || row->time <= 0)
             continue;
         plot->rows[plot->count++] = row;
         plot->floored = plot->floored || error < FLOOR;
         plot->x_min = fmin(plot->x_min, row->time);
         plot->x_max = fmax(plot->x_max, row->time);
-        plot->y_min = fmin(plot->y_min, height_of(plot, row));
-        plot->y_max = fmax(plot->y_max, height_of(plot, row));
+        plot->y_min = fmin(plot->y_min, height_of(row));
+        plot->y_max = fmax(plot->y_max, height_of(row));
     }
     if (plot->count == 0) {
         plot_close(plot);
@@ -124,7 +122,7 @@ static bool plot_open(Plot *plot, const Results *results, const char *scene, Err
     plot->x_max *= sqrt(sqrt(x_room));
     plot->y_min /= plot->floored ? 1.3 : y_room;
     plot->y_max *= sqrt(y_room);
-    front_open(&plot->front, results, scene, kind);
+    front_open(&plot->front, results, scene, ERROR_INTERIOR_MAXIMUM);
     choose_pins(plot);
     return true;
 }
@@ -177,11 +175,11 @@ static void set_label(TemplateValues *page, const Label *label)
     set_screen(leader, "x1", "y1", label->point);
 }
 
-static TemplateValues *add_row(TemplateValues *to, const Plot *plot, const ResultRow *row)
+static TemplateValues *add_row(TemplateValues *to, const ResultRow *row)
 {
     TemplateValues *values = template_add(to, "row");
     template_set(values, "time", "%.9g", row->time);
-    template_set(values, "error", "%.9g", height_of(plot, row));
+    template_set(values, "error", "%.9g", height_of(row));
     return values;
 }
 
@@ -202,7 +200,7 @@ static bool set_rows(TemplateValues *page, const Plot *plot, int interpolation, 
             template_set(rows, "hollow", "%d", hollow[interpolation]);
             template_set(rows, "color", "%s", GNUPLOT_PALETTE[interpolation]);
         }
-        add_row(rows, plot, row);
+        add_row(rows, row);
     }
     return rows != NULL;
 }
@@ -216,7 +214,7 @@ static void set_front(TemplateValues *page, const Plot *plot)
         const bool known = isfinite(row->time_lower) && isfinite(row->time_upper);
         const double lower = known ? fmax(row->time_lower, plot->x_min) : row->time;
         const double upper = known ? fmin(row->time_upper, plot->x_max) : row->time;
-        TemplateValues *values = add_row(front, plot, row);
+        TemplateValues *values = add_row(front, row);
         template_set(values, "lower", "%.9g", lower);
         template_set(values, "width", "%.9g", upper - lower);
     }
@@ -244,20 +242,14 @@ static void set_points(TemplateValues *page, const Plot *plot)
 
 static void set_axes(TemplateValues *page, const Plot *plot)
 {
-    static const char *const kinds[] = {
-        [ERROR_INTERIOR_MAXIMUM] = "largest error",
-        [ERROR_INTERIOR_RMS] = "RMS error",
-        [ERROR_ALL_RMS] = "RMS error of all pixels",
-    };
     set_screen(page, "left", "bottom", MIN);
     set_screen(page, "right", "top", MAX);
     gnuplot_set_axis(page, 'x', plot->x_min, plot->x_max, true);
     gnuplot_set_axis(page, 'y', plot->y_min, plot->y_max, true);
-    template_set(page, "error", "%s", kinds[plot->kind]);
     template_set(page, "middle", "%.5f", (MIN.y + MAX.y) / 2 / GNUPLOT_HEIGHT);
     if (plot->floored)
         template_set(page, "floor", "%g", FLOOR);
-    if (plot->kind == ERROR_INTERIOR_MAXIMUM && plot->y_min < ROUNDING && plot->y_max > ROUNDING)
+    if (plot->y_min < ROUNDING && plot->y_max > ROUNDING)
         template_set(page, "rounding", "%.5f", (MIN.x + 6) / GNUPLOT_WIDTH);
     template_set(page, "width", "%d", GNUPLOT_WIDTH);
     template_set(page, "height", "%d", GNUPLOT_HEIGHT);
@@ -299,25 +291,24 @@ void report_pin_path(const char *folder, const char *scene, int pin, char path[P
     snprintf(path, PATH_MAX, "%s/%s-pin-%d.png", folder, scene, pin + 1);
 }
 
-bool report_pins(ReportPins *pins, const Results *results, const char *scene, ErrorKind kind,
-                 Message *message)
+bool report_pins(ReportPins *pins, const Results *results, const char *scene, Message *message)
 {
     Plot plot;
-    if (!plot_open(&plot, results, scene, kind, message))
+    if (!plot_open(&plot, results, scene, message))
         return false;
     *pins = plot.pins;
     plot_close(&plot);
     return true;
 }
 
-bool report_plot(const Results *results, const char *scene, const char *title, ErrorKind kind,
-                 const char *folder, Message *message)
+bool report_plot(const Results *results, const char *scene, const char *title, const char *folder,
+                 Message *message)
 {
     Plot plot;
     Label labels[REPORT_PINS];
     char with[RESULT_WITH_SIZE], path[PATH_MAX];
     bool any = false;
-    if (!plot_open(&plot, results, scene, kind, message))
+    if (!plot_open(&plot, results, scene, message))
         return false;
     for (int i = 0; i < plot.pins.count; i++) {
         labels[i] = (Label){.point = place_of(&plot, plot.pins.rows[i])};
@@ -331,7 +322,7 @@ bool report_plot(const Results *results, const char *scene, const char *title, E
         set_label(page, &labels[i]);
         const ResultRow *row = plot.pins.rows[i];
         const double middle = pin_left(i) + pin_width() / 2;
-        const double error = row_error(row, plot.kind);
+        const double error = row->interior_maximum;
         TemplateValues *pin = template_add(page, "pin");
         template_set(pin, "caption", "'%.*f ms, %.*f steps'", row->time < 9.95, row->time,
                      error < 9.95, error);

@@ -13,7 +13,7 @@ set tmargin at screen {{top}}
 {{&x_axis}}
 {{&y_axis}}
 set xlabel 'time of a frame, drawn and read back, in ms' offset 0,0.4
-set label '{{error}}, in steps of 1/255' at screen 0.022,{{middle}} center rotate
+set label 'largest error, in steps of 1/255' at screen 0.022,{{middle}} center rotate
 {{#floor}}
 set ytics add ('≤{{floor}}' {{floor}})
 {{/floor}}
