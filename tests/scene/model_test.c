@@ -184,8 +184,8 @@ TEST(quads_without_normals_become_a_smooth_cube)
     assert_bounds(&mesh, (Vec3){-1, -1, -1}, (Vec3){1, 1, 1}, 0);
     assert_true(topology_volume(&mesh) == 8 && topology_area(&mesh) == 24);
     for (size_t i = 0; i < 8; i++) /* the three faces at a corner have equal weights */
-        assert_true(topology_distance(topology_vector(mesh.vertices[i].normal),
-                                      vec3_scale(topology_vector(mesh.vertices[i].position),
+        assert_true(topology_distance(vec3_from_float(mesh.vertices[i].normal),
+                                      vec3_scale(vec3_from_float(mesh.vertices[i].position),
                                                  1 / sqrt(3))) <= FLT_EPSILON);
 }
 
@@ -198,7 +198,7 @@ TEST(normals_of_a_file_are_kept_and_normalized)
     assert_counts(&mesh, 3, 1);
     static const Vec3 expected[3] = {{0, 0, 1}, {0.6, 0, 0.8}, {0, -1, 0}};
     for (size_t i = 0; i < 3; i++)
-        assert_true(topology_distance(topology_vector(mesh.vertices[mesh.indices[i]].normal),
+        assert_true(topology_distance(vec3_from_float(mesh.vertices[mesh.indices[i]].normal),
                                       expected[i]) <= FLT_EPSILON);
 }
 
@@ -294,14 +294,14 @@ TEST(a_ply_file_is_read_as_text_and_as_bytes)
     assert_counts(&mesh, 6, 8);
     assert_true(fabs(topology_volume(&mesh) - 4.0 / 3) < 1e-15); /* sixths: exact terms */
     for (size_t i = 0; i < 6; i++)
-        assert_true(topology_distance(topology_vector(mesh.vertices[i].normal),
-                                      topology_vector(mesh.vertices[i].position)) <= FLT_EPSILON);
+        assert_true(topology_distance(vec3_from_float(mesh.vertices[i].normal),
+                                      vec3_from_float(mesh.vertices[i].position)) <= FLT_EPSILON);
     mesh_close(&mesh);
     mesh = read_sound("square.ply", binary_ply());
     assert_counts(&mesh, 4, 2);
     assert_true(topology_area(&mesh) == 1);
     for (size_t i = 0; i < 4; i++)
-        assert_true(topology_distance(topology_vector(mesh.vertices[i].normal),
+        assert_true(topology_distance(vec3_from_float(mesh.vertices[i].normal),
                                       (Vec3){0, 0.6, 0.8}) <= FLT_EPSILON);
     mesh_close(&mesh);
 }
@@ -460,8 +460,8 @@ TEST(normals_follow_the_inverse_transpose)
         Vec3 expected;
         vec3_normalize(known[i].first, &expected);
         for (size_t v = 0; v < mesh.vertex_count; v++)
-            if (vec3_length(topology_vector(mesh.vertices[v].position)) == 0)
-                assert_true(topology_distance(topology_vector(mesh.vertices[v].normal), expected) <=
+            if (vec3_length(vec3_from_float(mesh.vertices[v].position)) == 0)
+                assert_true(topology_distance(vec3_from_float(mesh.vertices[v].normal), expected) <=
                             4 * FLT_EPSILON);
     }
 }
@@ -478,7 +478,7 @@ TEST(only_missing_normals_are_computed)
     assert_counts(&mesh, 8, 4);
     for (size_t i = 0; i < mesh.vertex_count; i++) {
         const float *p = mesh.vertices[i].position;
-        const Vec3 normal = topology_vector(mesh.vertices[i].normal);
+        const Vec3 normal = vec3_from_float(mesh.vertices[i].normal);
         const bool zero = p[0] == 0 && p[1] == 0;
         const bool up = topology_distance(normal, (Vec3){0, 0, 1}) == 0;
         const bool left = topology_distance(normal, (Vec3){-half, 0, half}) <= FLT_EPSILON;

@@ -47,7 +47,7 @@ TEST(the_head_fits_the_unit_sphere_and_its_normals_point_outwards)
         SUCCEEDS(mesh_head(&mesh, STYLES[s].style, message));
         topology_check_sound(&mesh);
         for (size_t i = 0; i < mesh.vertex_count; i++)
-            far = fmax(far, vec3_length(topology_vector(mesh.vertices[i].position)));
+            far = fmax(far, vec3_length(vec3_from_float(mesh.vertices[i].position)));
         assert_true(far > 0.9 && far <= 1);
         /* A quadrilateral's halves are less than 30 degrees from its plane; smooth normals are on
          * the outer side of each triangle, even where the rim of an ear is thin. */
@@ -55,7 +55,7 @@ TEST(the_head_fits_the_unit_sphere_and_its_normals_point_outwards)
         for (size_t i = 0; i < mesh.index_count; i++) {
             Vec3 face;
             assert_true(mesh_face(&mesh, i / 3, &face));
-            assert_true(vec3_dot(face, topology_vector(mesh.vertices[mesh.indices[i]].normal)) >
+            assert_true(vec3_dot(face, vec3_from_float(mesh.vertices[mesh.indices[i]].normal)) >
                         least);
         }
     }

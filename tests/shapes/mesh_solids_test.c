@@ -24,7 +24,7 @@ static void assert_sound(const Mesh *mesh, size_t boundary)
         const Vec3 face = topology_face(mesh, triangle);
         assert_true(vec3_length(face) > 0);
         for (size_t i = 3 * triangle; i < 3 * triangle + 3; i++)
-            assert_true(vec3_dot(face, topology_vector(mesh->vertices[mesh->indices[i]].normal)) >
+            assert_true(vec3_dot(face, vec3_from_float(mesh->vertices[mesh->indices[i]].normal)) >
                         0);
     }
     assert_int_equal(topology_open_edges(mesh), boundary);
@@ -55,7 +55,7 @@ static void assert_on_surface(const MeshVertex *vertex, double f, Vec3 gradient,
     /* At most half a step in each coordinate. */
     assert_true(fabs(f) / slope <= size * FLT_EPSILON);
     /* The gradient is computed at the rounded position, and the normal is rounded too. */
-    assert_true(topology_distance(unit, topology_vector(vertex->normal)) <= 4 * FLT_EPSILON);
+    assert_true(topology_distance(unit, vec3_from_float(vertex->normal)) <= 4 * FLT_EPSILON);
 }
 
 typedef struct Tessellation {
@@ -92,7 +92,7 @@ TEST(a_cone_lies_on_its_surface_with_the_normals_of_it)
             assert_seam(mesh.vertices, (size_t)t.along + 3, row - 1);
             assert_sound(&mesh, 0);
             for (size_t i = row; i < side; i++) {
-                const Vec3 p = topology_vector(mesh.vertices[i].position);
+                const Vec3 p = vec3_from_float(mesh.vertices[i].position);
                 const double wide = hypot(p.x, p.y);
                 assert_on_surface(&mesh.vertices[i], wide + r * p.z / h - r,
                                   (Vec3){p.x / wide, p.y / wide, r / h}, h);
@@ -102,7 +102,7 @@ TEST(a_cone_lies_on_its_surface_with_the_normals_of_it)
                 const double a = 2 * PI * ((double)i - 0.5) / t.around, l = hypot(r, h);
                 const Vec3 normal = {h / l * cos(a), h / l * sin(a), r / l};
                 assert_memory_equal(mesh.vertices[i].position, apex.position, sizeof apex.position);
-                assert_true(topology_distance(topology_vector(mesh.vertices[i].normal), normal) <=
+                assert_true(topology_distance(vec3_from_float(mesh.vertices[i].normal), normal) <=
                             2 * ROUNDED);
             }
             const MeshVertex middle = {{0, 0, 0}, {0, 0, -1}};
@@ -129,7 +129,7 @@ TEST(a_cylinder_lies_on_its_surface_with_the_normals_of_it)
             assert_int_equal(mesh.vertex_count, side + 4 * row);
             assert_seam(mesh.vertices, (size_t)t.along + 5, row - 1);
             for (size_t i = 0; i < side; i++) {
-                const Vec3 p = topology_vector(mesh.vertices[i].position);
+                const Vec3 p = vec3_from_float(mesh.vertices[i].position);
                 assert_true(p.z >= 0 && p.z <= (float)h);
                 assert_on_surface(&mesh.vertices[i], hypot(p.x, p.y) - r,
                                   (Vec3){p.x / r, p.y / r, 0}, r);
@@ -189,14 +189,14 @@ TEST(a_torus_lies_on_its_surface_with_the_normals_of_it)
             for (size_t i = 0; i < mesh.vertex_count; i++) {
                 /* The vector from the middle of the tube; the thinner the tube, the larger its
                  * relative rounding error. */
-                const Vec3 p = topology_vector(mesh.vertices[i].position);
+                const Vec3 p = vec3_from_float(mesh.vertices[i].position);
                 const double wide = hypot(p.x, p.y);
                 const Vec3 middle = {ring * p.x / wide, ring * p.y / wide, 0};
                 const Vec3 out = vec3_scale(vec3_subtract(p, middle), 1 / tube);
                 const double part = FLT_EPSILON * (1 + ring / tube);
                 assert_true(fabs(vec3_length(out) - 1) <= part);
                 if (wide > 0.01 * ring) /* near the axis it has no accurate direction */
-                    assert_true(topology_distance(out, topology_vector(mesh.vertices[i].normal)) <=
+                    assert_true(topology_distance(out, vec3_from_float(mesh.vertices[i].normal)) <=
                                 2 * part);
             }
         }
@@ -217,7 +217,7 @@ TEST(a_disc_is_a_polygon_that_faces_up)
             assert_sound(&mesh, (size_t)t.around);
             assert_near(topology_area(&mesh), polygon(t.around) * r * r, 4 * FLT_EPSILON);
             for (size_t i = 0; i < mesh.vertex_count; i++) {
-                const Vec3 p = topology_vector(mesh.vertices[i].position);
+                const Vec3 p = vec3_from_float(mesh.vertices[i].position);
                 const double loop = (double)(i / ((size_t)t.around + 1)) / t.along;
                 const double angle = 2 * PI * (double)(i % ((size_t)t.around + 1)) / t.around;
                 const Vec3 expected = {r * loop * cos(angle), r * loop * sin(angle), 0};
@@ -279,7 +279,7 @@ static bool has_corner(const Mesh *mesh, Vec3 direction, double radius)
     Vec3 unit;
     vec3_normalize(direction, &unit);
     for (size_t i = 0; i < mesh->vertex_count; i++)
-        if (topology_distance(vec3_scale(topology_vector(mesh->vertices[i].position), 1 / radius),
+        if (topology_distance(vec3_scale(vec3_from_float(mesh->vertices[i].position), 1 / radius),
                               unit) < 1e-6)
             return true;
     return false;
@@ -299,9 +299,9 @@ TEST(regular_solids_are_regular)
             assert_near(topology_volume(&mesh), REGULAR[n].volume * r * r * r, 4 * FLT_EPSILON);
             for (size_t i = 0; i < mesh.vertex_count; i++) {
                 const size_t next = i % sides == sides - 1 ? i + 1 - sides : i + 1;
-                const Vec3 p = topology_vector(mesh.vertices[i].position);
-                const Vec3 q = topology_vector(mesh.vertices[next].position);
-                const Vec3 normal = topology_vector(mesh.vertices[i].normal);
+                const Vec3 p = vec3_from_float(mesh.vertices[i].position);
+                const Vec3 q = vec3_from_float(mesh.vertices[next].position);
+                const Vec3 normal = vec3_from_float(mesh.vertices[i].normal);
                 assert_near(vec3_length(p), r, FLT_EPSILON);
                 assert_near(topology_distance(p, q), REGULAR[n].edge * r, 2 * FLT_EPSILON);
                 /* Flat: the normal is the face's, perpendicular to its edges. */
@@ -311,7 +311,7 @@ TEST(regular_solids_are_regular)
                 /* Convex: no corner is above a face. */
                 for (size_t other = 0; other < mesh.vertex_count; other++)
                     assert_true(
-                        vec3_dot(vec3_subtract(topology_vector(mesh.vertices[other].position), p),
+                        vec3_dot(vec3_subtract(vec3_from_float(mesh.vertices[other].position), p),
                                  normal) <= 4 * FLT_EPSILON * r);
             }
             assert_true(has_corner(&mesh, REGULAR[n].corner, r));
@@ -393,7 +393,7 @@ TEST(a_teapot_turns_its_triangles_outwards)
         for (int i = 0; i < PART_COUNT; i++) {
             const MeshVertex *vertex =
                 part_vertex(&mesh, d, outer[i].part, outer[i].row * d / 2, outer[i].column * d / 2);
-            assert_true(vec3_dot(topology_vector(vertex->normal), outer[i].side) > 0.5);
+            assert_true(vec3_dot(vec3_from_float(vertex->normal), outer[i].side) > 0.5);
         }
     }
 }
@@ -454,7 +454,7 @@ TEST(a_teapot_passes_through_known_points)
             const MeshVertex *vertex =
                 part_vertex(&mesh, divisions, KNOWN[i].part, KNOWN[i].row * divisions / 2,
                             KNOWN[i].column * divisions / 2);
-            const Vec3 p = vec3_scale(topology_vector(vertex->position), 1 / sizes[s]);
+            const Vec3 p = vec3_scale(vec3_from_float(vertex->position), 1 / sizes[s]);
             /* Coordinates below 2 are rounded to float once: half a step in each. */
             if (!(topology_distance(p, KNOWN[i].position) <= FLT_EPSILON))
                 fail_msg("%s %d %d: %.9g %.9g %.9g", PARTS[KNOWN[i].part].name, KNOWN[i].row,
@@ -468,8 +468,8 @@ TEST(a_teapot_passes_through_known_points)
 static double tilt(const MeshVertex *before, const MeshVertex *vertex, const MeshVertex *after)
 {
     const Vec3 along =
-        vec3_subtract(topology_vector(after->position), topology_vector(before->position));
-    return fabs(vec3_dot(along, topology_vector(vertex->normal))) / vec3_length(along);
+        vec3_subtract(vec3_from_float(after->position), vec3_from_float(before->position));
+    return fabs(vec3_dot(along, vec3_from_float(vertex->normal))) / vec3_length(along);
 }
 
 static double worst_tilt(int divisions)
@@ -521,9 +521,9 @@ TEST(the_poles_of_a_teapot_have_the_normals_of_the_limit)
         for (int column = 0; column <= 4 * d; column++) {
             assert_memory_equal(part_vertex(&mesh, d, LID, 0, column), &tip, sizeof tip);
             assert_memory_equal(part_vertex(&mesh, d, BODY, 4 * d, column), &bottom, sizeof bottom);
-            const Vec3 lid = topology_vector(part_vertex(&mesh, d, LID, 1, column)->normal);
+            const Vec3 lid = vec3_from_float(part_vertex(&mesh, d, LID, 1, column)->normal);
             const Vec3 body =
-                topology_vector(part_vertex(&mesh, d, BODY, 4 * d - 1, column)->normal);
+                vec3_from_float(part_vertex(&mesh, d, BODY, 4 * d - 1, column)->normal);
             farthest = fmax(farthest, fmax(topology_distance(lid, (Vec3){0, 1, 0}),
                                            topology_distance(body, (Vec3){0, -1, 0})));
         }
@@ -563,7 +563,7 @@ TEST(a_flat_mesh_has_its_triangles_and_their_normals)
                                 smooth.vertices[smooth.indices[i]].position,
                                 sizeof flat.vertices[i].position);
             assert_true(mesh_face(&smooth, i / 3, &normal));
-            assert_true(topology_distance(topology_vector(flat.vertices[i].normal), normal) <=
+            assert_true(topology_distance(vec3_from_float(flat.vertices[i].normal), normal) <=
                         2 * ROUNDED);
             assert_true(fabs(vec3_dot(topology_face(&smooth, i / 3), normal) -
                              vec3_length(topology_face(&smooth, i / 3))) < 1e-15);
@@ -610,8 +610,8 @@ static double worst_normal(const Mesh *welded, const Mesh *truth)
     double worst = 0;
     for (size_t i = 0; i < welded->index_count; i++)
         worst = fmax(
-            worst, topology_distance(topology_vector(welded->vertices[welded->indices[i]].normal),
-                                     topology_vector(truth->vertices[welded->indices[i]].normal)));
+            worst, topology_distance(vec3_from_float(welded->vertices[welded->indices[i]].normal),
+                                     vec3_from_float(truth->vertices[welded->indices[i]].normal)));
     return worst;
 }
 
@@ -633,9 +633,9 @@ TEST(angle_weights_do_not_depend_on_how_faces_are_triangulated)
             assert_true(mesh_compute_normals(&mesh, WEIGHTS[w], NULL));
             for (size_t i = 0; i < mesh.index_count; i++) {
                 const MeshVertex *vertex = &mesh.vertices[mesh.indices[i]];
-                const Vec3 exact = vec3_scale(topology_vector(vertex->position), third);
+                const Vec3 exact = vec3_scale(vec3_from_float(vertex->position), third);
                 worst[w] =
-                    fmax(worst[w], topology_distance(exact, topology_vector(vertex->normal)));
+                    fmax(worst[w], topology_distance(exact, vec3_from_float(vertex->normal)));
             }
         }
     }
@@ -665,7 +665,7 @@ static void open_irregular_sphere(Mesh *mesh, Mesh *truth, int divisions)
         }
     }
     for (size_t i = 0; i < mesh->vertex_count; i++)
-        vec3_to_float(topology_vector(mesh->vertices[i].position), truth->vertices[i].normal);
+        vec3_to_float(vec3_from_float(mesh->vertices[i].position), truth->vertices[i].normal);
 }
 
 TEST(max_weights_are_exact_on_any_triangulated_sphere)
@@ -730,7 +730,7 @@ TEST(a_cancelled_normal_is_the_first_faces_and_an_unused_one_is_up)
         assert_true(mesh_face(&mesh, 0, &first));
         assert_true(mesh_compute_normals(&mesh, WEIGHTS[w], NULL));
         for (int i = 0; i < 3; i++)
-            assert_true(topology_distance(topology_vector(vertices[i].normal), first) <=
+            assert_true(topology_distance(vec3_from_float(vertices[i].normal), first) <=
                         2 * ROUNDED);
         for (int i = 3; i < 5; i++)
             assert_true(vertices[i].normal[0] == 0 && vertices[i].normal[2] == 1);

@@ -4,11 +4,6 @@
 
 #include <float.h>
 
-Vec3 topology_vector(const float v[3])
-{
-    return (Vec3){v[0], v[1], v[2]};
-}
-
 double topology_distance(Vec3 a, Vec3 b)
 {
     return vec3_length(vec3_subtract(a, b));
@@ -16,7 +11,7 @@ double topology_distance(Vec3 a, Vec3 b)
 
 Vec3 topology_corner(const Mesh *mesh, size_t index)
 {
-    return topology_vector(mesh->vertices[mesh->indices[index]].position);
+    return vec3_from_float(mesh->vertices[mesh->indices[index]].position);
 }
 
 Vec3 topology_face(const Mesh *mesh, size_t triangle)
@@ -107,9 +102,9 @@ void topology_check_sound(const Mesh *mesh)
     topology_check_indices(mesh);
     for (size_t i = 0; i < mesh->vertex_count; i++) {
         /* Three components, each with an error of at most a quarter of FLT_EPSILON: sqrt(3) / 4. */
-        const double length = vec3_length(topology_vector(mesh->vertices[i].normal));
+        const double length = vec3_length(vec3_from_float(mesh->vertices[i].normal));
         assert_true(fabs(length - 1) <= 0.44 * FLT_EPSILON);
-        assert_true(isfinite(vec3_length(topology_vector(mesh->vertices[i].position))));
+        assert_true(isfinite(vec3_length(vec3_from_float(mesh->vertices[i].position))));
     }
 }
 

@@ -8,8 +8,6 @@
 
 #include "core/mesh.h"
 
-/* A vertex's position or normal. */
-Vec3 topology_vector(const float v[3]);
 double topology_distance(Vec3 a, Vec3 b);
 
 /* The position that an index leads to. */
