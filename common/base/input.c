@@ -68,7 +68,8 @@ char *input_read(int folder, const char *path, const char *name, size_t max, siz
 char *input_whole(const char *path, size_t *size, Message *message)
 {
     const int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-    const off_t room = file < 0 ? -1 : lseek(file, 0, SEEK_END);
+    /* To read nothing fails of a folder, which may have a size. */
+    const off_t room = file < 0 || read(file, NULL, 0) < 0 ? -1 : lseek(file, 0, SEEK_END);
     char *bytes = room < 0 || lseek(file, 0, SEEK_SET) != 0 ? NULL : malloc((size_t)room + 1);
     const ssize_t got = bytes ? input_bytes(file, bytes, (size_t)room) : -1;
     if (got >= 0) {

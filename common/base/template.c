@@ -5,11 +5,11 @@
  */
 #include "base/template.h"
 
+#include "base/input.h"
 #include "base/memory.h"
 #include "base/output_text.h"
 #include "base/paths.h"
 
-#include <errno.h>
 #include <limits.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -225,31 +225,18 @@ bool template_fill(const char *file, const char *text, const TemplateValues *val
     return fill(&filling, text, values, NULL, true);
 }
 
-/* The caller frees it. */
-static char *read_text(const char *path, Message *message)
-{
-    char *text = NULL;
-    size_t size = 0;
-    FILE *file = fopen(path, "re");
-    if (!file || getdelim(&text, &size, '\0', file) < 0) {
-        message_set(message, "%s: cannot read the template: %s", path,
-                    file && !ferror(file) ? "it is empty" : strerror(errno));
-        free(text);
-        text = NULL;
-    }
-    if (file)
-        fclose(file);
-    return text;
-}
-
 bool template_print(const char *source, const TemplateValues *values, FILE *out, Message *message)
 {
     const char *name = strrchr(source, '/') + 1;
     char installed[NAME_MAX], found[PATH_MAX];
     snprintf(installed, sizeof installed, "templates/%s", name);
     paths_find_data(source, installed, found);
-    char *text = read_text(found, message);
-    const bool done = text && template_fill(found, text, values, out, message);
+    Message why = {0};
+    size_t size;
+    char *text = input_whole(found, &size, &why);
+    const bool done =
+        text ? template_fill(found, text, values, out, message)
+             : message_set(message, "%s: cannot read the template: %s", found, why.text);
     free(text);
     return done;
 }

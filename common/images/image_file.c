@@ -4,6 +4,7 @@
  */
 #include "images/image_file.h"
 
+#include "base/input.h"
 #include "base/output.h"
 #include "images/image_plugin.h"
 
@@ -28,26 +29,10 @@ void image_file_close(ImageFile *file)
 
 bool image_file_read(ImageFile *file, const char *path, Message *message)
 {
-    enum { STEP = 1 << 16 };
-    FILE *stream = fopen(path, "rbe");
-    size_t got = STEP;
+    Message why = {0};
     *file = (ImageFile){.bytes = NULL};
-    if (!stream)
-        return message_set(message, "%s: cannot read: %s", path, strerror(errno));
-    while (got == STEP) {
-        unsigned char *bytes = realloc(file->bytes, file->size + STEP);
-        if (!bytes)
-            break;
-        file->bytes = bytes;
-        got = fread(file->bytes + file->size, 1, STEP, stream);
-        file->size += got;
-    }
-    const bool whole = got < STEP && !ferror(stream);
-    fclose(stream);
-    if (whole)
-        return true;
-    image_file_close(file);
-    return message_set(message, "%s: cannot read", path);
+    file->bytes = (unsigned char *)input_whole(path, &file->size, &why);
+    return file->bytes || message_set(message, "%s: cannot read: %s", path, why.text);
 }
 
 Plugin image_openimageio = {"image_oiio.so",      "image_plugin",

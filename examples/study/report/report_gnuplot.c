@@ -22,19 +22,6 @@ static bool fail(const char *path, const char *reason, Message *message)
     return message_set(message, "%s: gnuplot: %s", path, reason);
 }
 
-/* Writes the contents of an open file to `path`. */
-static bool copy_file(int file, const char *path, Message *message)
-{
-    struct stat status;
-    const size_t size = fstat(file, &status) == 0 ? (size_t)status.st_size : 0;
-    void *bytes = mmap(NULL, size, PROT_READ, MAP_SHARED, file, 0);
-    if (bytes == MAP_FAILED)
-        return fail(path, strerror(errno), message);
-    const bool done = output_write(path, bytes, size, message);
-    munmap(bytes, size);
-    return done;
-}
-
 /* Runs gnuplot with these standard streams. It points at the place in the script over several
  * lines; the last one says what is wrong. */
 static bool run_gnuplot(const int files[3], const char *path, Message *message)
@@ -60,25 +47,27 @@ static bool run_gnuplot(const int files[3], const char *path, Message *message)
     return message_set(message, "%s: gnuplot: status %d: %s", path, WEXITSTATUS(status), said);
 }
 
-/* Script and output are memory files, so that neither side blocks. */
+/* Script and errors are memory files, so that neither side blocks; the plot is written to a file
+ * that gets its name when it is whole. */
 static bool draw_plot(const char *terminal, const char *script, size_t size, const char *path,
                       Message *message)
 {
-    int files[3];
-    bool done = true;
-    for (int i = 0; i < 3; i++) {
-        files[i] = memfd_create("gnuplot", MFD_CLOEXEC);
-        done = done && files[i] >= 0;
-    }
-    done = done && dprintf(files[0], "set terminal %s\n", terminal) > 0 &&
-           write(files[0], script, size) == (ssize_t)size && lseek(files[0], 0, SEEK_SET) == 0;
-    if (!done)
-        fail(path, strerror(errno), message);
-    done = done && run_gnuplot(files, path, message) && copy_file(files[1], path, message);
-    for (int i = 0; i < 3; i++)
+    Output *output = output_begin(path, message);
+    if (!output)
+        return false;
+    const int files[3] = {memfd_create("gnuplot", MFD_CLOEXEC), output_file(output),
+                          memfd_create("gnuplot", MFD_CLOEXEC)};
+    bool done = files[0] >= 0 && files[2] >= 0 &&
+                dprintf(files[0], "set terminal %s\n", terminal) > 0 &&
+                write(files[0], script, size) == (ssize_t)size && lseek(files[0], 0, SEEK_SET) == 0;
+    done = done ? run_gnuplot(files, path, message) : fail(path, strerror(errno), message);
+    for (int i = 0; i < 3; i += 2)
         if (files[i] >= 0)
             close(files[i]);
-    return done;
+    if (done)
+        return output_commit(output, message);
+    output_abort(output);
+    return false;
 }
 
 static bool draw_plots(const OutputText *script, const char *folder, const char *name,
