@@ -141,11 +141,10 @@ static void write_simplified(const CheapestQuality *cheapest, const Scene *scene
         for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {
             if (!all[k].there)
                 continue;
+            fputs(before, file);
             if (all[k].count)
-                fprintf(file, "%s%d of %d lights %s", before, all[k].count, scene->light_count,
-                        all[k].what);
-            else
-                fprintf(file, "%s%s", before, all[k].what);
+                fprintf(file, "%d of %d lights ", all[k].count, scene->light_count);
+            fputs(all[k].what, file);
             before = ", ";
         }
     }
@@ -171,6 +170,7 @@ void cheapest_quality_write(const CheapestQuality *cheapest, const Scene *scene,
     write_simplified(cheapest, scene, file);
     fprintf(file, "; error %.2f of %g allowed inside objects (plain: %.2f)", cheapest->error,
             allowed, cheapest->plain_error);
+    fprintf(file, ", expected cost %.0f (plain: %.0f)", cheapest->cost, cheapest->plain_cost);
     if (cheapest->moments > 1)
         fprintf(file, ", at %d moments, and %.2f in reserve", cheapest->moments, cheapest->margin);
     fprintf(file, "; not counted, but off by more than %g: ", allowed);

@@ -5,6 +5,7 @@ const Book = (() => {
     const SETTLE = 400; /* milliseconds before a plot's point follows what is being dragged */
     const FRAMES = 15; /* of which the median time counts */
     const SOON = "100px"; /* from being in sight */
+    const DRAWN = "figure.live, figure.formula";
     const {element} = Controls;
     const book = {engine: null, compiled: null, programs: new Map(), figures: [], opened: "", playing: null, last: 0, scheduled: false};
 
@@ -20,6 +21,8 @@ const Book = (() => {
         }
         return {name, values};
     }
+
+    const lines = (name, values) => [name, ...[...values].map(([option, value]) => "--" + option + (value === true ? "" : "=" + value))];
 
     class Figure {
         constructor(where) {
@@ -47,9 +50,7 @@ const Book = (() => {
             this.values.delete("orbit");
         }
 
-        lines() {
-            return [this.name, ...[...this.values].map(([name, value]) => "--" + name + (value === true ? "" : "=" + value))];
-        }
+        lines() { return lines(this.name, this.values); }
 
         /* A button or range of the time, options, a comparison. */
         fill() {
@@ -301,11 +302,52 @@ const Book = (() => {
 
     const load = image => { image.src ||= image.dataset.src; };
 
-    /* Still pictures come when they are in sight. */
-    function watchPictures() {
-        const watch = new IntersectionObserver(entries => entries.filter(({isIntersecting}) => isIntersecting).forEach(({target}) => load(target)),
-                                               {rootMargin: SOON});
-        document.querySelectorAll("[data-src]").forEach(image => watch.observe(image));
+    /* A still picture comes when it is in sight, and what draws, `begins`, when a figure that is drawn is, as long as all that came since
+     * the page is within its budget; the rest as soon as the reader does anything. */
+    function watchSight(begins) {
+        const {budget, module} = document.body.dataset, waiting = new Set();
+        let left = Number(budget), acted = false, called = false;
+
+        function come(target) {
+            const still = target.matches("img"), where = target.closest("figure"), weight = Number(still ? target.dataset.weight : called ? 0 : module);
+            if (!acted && weight > left) {
+                waiting.add(target);
+                where.dataset.waits = `${(weight / 1000).toFixed(0)} kB`;
+                return;
+            }
+            left -= weight;
+            delete where.dataset.waits;
+            watch.unobserve(target);
+            if (still)
+                load(target);
+            else
+                draws();
+        }
+
+        function draws() {
+            called = true;
+            begins();
+        }
+
+        const watch = new IntersectionObserver(entries => {
+            for (const {target, isIntersecting} of entries)
+                if (isIntersecting)
+                    come(target);
+                else if (waiting.delete(target))
+                    delete target.closest("figure").dataset.waits;
+            if (!called)
+                document.body.dataset.ready = "yes";
+        }, {rootMargin: SOON});
+        document.querySelectorAll("[data-src], " + DRAWN).forEach(target => watch.observe(target));
+        function act() {
+            acted = true;
+            waiting.forEach(come);
+            waiting.clear();
+            if (document.querySelector(DRAWN))
+                draws();
+        }
+        for (const action of ["scroll", "wheel", "pointermove", "pointerdown", "keydown", "focusin"])
+            window.addEventListener(action, act, {once: true, passive: true});
     }
 
     /* The figures are the pictures that stand there. */
@@ -329,34 +371,26 @@ const Book = (() => {
         });
     }
 
-    /* A figure that is drawn is in sight, or the reader reads on. Until then the page is complete without what draws. */
-    function reached(figures) {
-        return new Promise(resolve => {
-            const watch = new IntersectionObserver(entries => {
-                if (entries.some(({isIntersecting}) => isIntersecting))
-                    resolve();
-                else
-                    document.body.dataset.ready = "yes";
-            }, {rootMargin: SOON});
-            figures.forEach(figure => watch.observe(figure));
-            window.addEventListener("scroll", resolve, {once: true});
-        });
+    /* What draws is loaded once. */
+    let begun = null;
+    const begin = () => begun ||= loadScript("lighting.js").then(() => compileLighting()).then(async compiled => {
+        book.compiled = compiled;
+        book.engine = await Engine.open(compiled, newCanvas());
+        for (const program of book.engine.json("programs"))
+            book.programs.set(program.name, program);
+    });
+
+    /* The module has drawn something else meanwhile. */
+    function renew() {
+        book.opened = "";
+        schedule();
     }
 
     async function open() {
-        const drawn = [...document.querySelectorAll("figure.live, figure.formula")];
+        const drawn = [...document.querySelectorAll(DRAWN)];
         listenToPrinting();
-        watchPictures();
-        if (!drawn.length) {
-            document.body.dataset.ready = "yes";
-            return;
-        }
-        await reached(drawn);
-        await loadScript("lighting.js");
-        book.compiled = await compileLighting();
-        book.engine = await Engine.open(book.compiled, newCanvas());
-        for (const program of book.engine.json("programs"))
-            book.programs.set(program.name, program);
+        await new Promise(watchSight);
+        await begin();
         book.figures = drawn.map(where =>
             where.dataset.slider ? new Formula(where) : new Figure(where));
         const watch = new IntersectionObserver(entries => {
@@ -375,5 +409,5 @@ const Book = (() => {
         document.body.dataset.ready = "still";
         stand();
     });
-    return {book, schedule, read, point};
+    return {book, schedule, read, lines, point, begin, renew};
 })();

@@ -15,6 +15,7 @@ A chapter is Markdown with formulas in TeX, and
     $$ A, \\qquad B \\allowbreak + C $$                  a formula, which may be broken there
     [NUMBER]{check="EXPRESSION"}                        a number that tests/book computes again; which others may stand: prose.py
     <!-- place: HEADING; HEADING -->                    what the section above shows of places.txt
+    <!-- costs: NAME OPTIONS; OPTIONS; ... -->           what accuracy costs there (costs.py)
     <!-- at: NAME = {NAME} ... -->                      below a formula: its numbers at the pixel that is clicked (terms.js)
 """
 import html
@@ -172,7 +173,7 @@ def still(figure, caption, hidden=""):
     """The picture of a figure, which book.js loads when it is in sight, and where something is drawn instead not before paper
     or a failure needs it."""
     image = f'src="{figure.picture}"{STILL.get(figure.name, "")} alt="{caption}">'
-    return f"<img{hidden} data-{image}<noscript><img {image}</noscript>"
+    return f"<img{hidden} data-{image}<noscript><img loading=\"lazy\" {image}</noscript>"
 
 
 def canvas(words, caption, more=' tabindex="0"'):

@@ -7,7 +7,7 @@ The second adds pages of other labs, each a folder whose picture is FOLDER/NAME.
 
 FOLDER gets index.html, book.html and labs.html, a page for each program, chapter and lab, what they share, and .lighting, the
 list of all; FOLDER/single has each page of a program or lab as one file. LIGHTING_NATIVE in the environment is the folder of
-the native programs, which draw the book's pictures.
+the native programs, which draw the book's pictures and say what they cost.
 A browser fetches nothing for a page from file://, so the WebAssembly is a text in a script, and a page names each of its
 scripts.
 """
@@ -25,6 +25,7 @@ import shutil
 import sys
 
 import book
+import costs
 import markdown
 import prose
 
@@ -33,8 +34,9 @@ PROGRAM = ["lighting.js", "module.js", "worker.js", "png.js", "zip.js", "link.js
            "lent.js", "share.js", "undo.js", "wipe.js", "before.js", "assembled.js", "point.js", "program.js"]
 # What a page loads when a pixel is asked for.
 POINTED = ["probe.js", "precision.js", "pixel.js"]
-BOOK = ["module.js", "worker.js", "controls.js", "point.js", "book.js", "slides.js"]
+BOOK = ["module.js", "worker.js", "controls.js", "point.js", "book.js", "slides.js", "costs.js"]
 LABS = ["progress.js", "labs.js"]
+AT_ONCE = 250000  # bytes that a chapter loads before its reader does anything
 BORROW = ["precision.js", "qrcode.js", "borrow.js"]
 LAB = ["labs_module.js", "module.js", "progress.js", "lab_worker.js", "png.js", "zip.js", "controls.js",
        "editor.js", "wipe.js", "point.js", "lab.js"]
@@ -197,9 +199,15 @@ def alone(names):
             "scripts": "\n".join(f"<script>{text}</script>" for text in texts)}
 
 
+def bytes_of(name):
+    """Packed as a server sends it; 0 of a picture that is not drawn."""
+    path = site / name
+    return len(gzip.compress(path.read_bytes(), 9)) if path.exists() else 0
+
+
 def weight(names):
-    """In kB, packed as a server sends them."""
-    return sum(len(gzip.compress((site / name).read_bytes(), 9)) for name in names) / 1000
+    """In kB."""
+    return sum(map(bytes_of, names)) / 1000
 
 
 def page(folder, name, parts, single):
@@ -313,19 +321,28 @@ def beside(all_chapters, at):
 
 def write_book():
     all_chapters = book.chapters()
+    programs = "LIGHTING_NATIVE" in os.environ and pathlib.Path(os.environ["LIGHTING_NATIVE"])
     pointed = [*POINTED, "terms.js"]
+    if programs:
+        book.draw(site, programs)
     for at, chapter in enumerate(all_chapters):
         left = prose.unmarked(chapter)
         assert not left, f"{chapter.path.name}: numbers that nothing computes: {left}"
         scripts = [f"{kind}.js" for kind in ("formula", "precision") if f"]({kind}:" in chapter.text] + BOOK
-        write(site / f"{chapter.name}.html",
-              fill("chapter.html", title=html.escape(book.plain(chapter.title)), links=beside(all_chapters, at),
-                   body=book.body(chapter, diff), pointed=" ".join(pointed), weight=f"{weight([*pointed, 'pixel.css']):.0f}", **shared(scripts)))
+        body = costs.fill(book.body(chapter, diff), programs, weight(["lighting.js"]))
+        body = re.sub(r'data-src="([^"]*)"', lambda found: f'{found[0]} data-weight="{bytes_of(found[1])}"', body)
+
+        def page(budget):
+            return fill("chapter.html", title=html.escape(book.plain(chapter.title)), links=beside(all_chapters, at), body=body,
+                        pointed=" ".join(pointed), weight=f"{weight([*pointed, 'pixel.css']):.0f}", module=str(bytes_of("lighting.js")),
+                        budget=str(budget), **shared(scripts))
+
+        # What the page is without the pictures and the module that its figures ask for.
+        there = len(gzip.compress(page(AT_ONCE).encode(), 9)) + sum(map(bytes_of, ["style.css", "book.css", *scripts]))
+        write(site / f"{chapter.name}.html", page(AT_ONCE - there))
     items = "".join(f'<li value="{chapter.number}"><a href="{chapter.name}.html">{html.escape(book.plain(chapter.title))}</a></li>\n'
                     for chapter in all_chapters)
     write(site / "book.html", fill("book.html", chapters=items, **shared([])))
-    if "LIGHTING_NATIVE" in os.environ:
-        book.draw(site, pathlib.Path(os.environ["LIGHTING_NATIVE"]))
 
 
 def qr_library():

@@ -16,6 +16,7 @@ sys.path.insert(0, os.path.dirname(__file__))
 sys.path.insert(0, os.path.join(os.path.abspath(sys.argv[3]), "examples/web"))
 import book
 import claims
+import costs
 import prose
 import svg
 from claims import EXAMPLES, SOURCE
@@ -125,6 +126,40 @@ class Figures(unittest.TestCase):
             with self.subTest(after):
                 drawn = [*book.commands(chapter.text), *filter(None, chapter.commands())]
                 self.assertIn(after, [command.split()[0] for command in drawn])
+
+
+class Costs(unittest.TestCase):
+    def test_each_chapter_says_what_accuracy_costs(self):
+        """Once, where it speaks of that: error, cost and what is left out; in the short form what a third of the programs say."""
+        programs, step = pathlib.Path(EXAMPLES), 1 if os.environ.get("LIGHTING_TEST_LONG") else 3
+        for number, chapter in enumerate(CHAPTERS):
+            with self.subTest(chapter.path.name):
+                marks = [(heading, words) for heading, text in chapter.sections() for words in costs.MARK.findall(text)]
+                self.assertEqual(len(marks), 1)
+                (heading, words), = marks
+                self.assertTrue(heading.startswith("What accuracy costs") or chapter.title == "What accuracy costs", heading)
+                self.assertGreaterEqual(len(words.split(";")), 2)
+                if number % step == 0:
+                    self.assert_complete(costs.rows(programs, words), words)
+                    self.assert_shown(costs.table(words, programs, 216))
+
+    def assert_complete(self, found, words):
+        made, chosen = found
+        self.assertEqual(len(made), len(words.split(";")) + 1)
+        for options, error, vertex, _, cost in made:
+            self.assertTrue(error > 0 and vertex > 0 and cost > 0, options)
+        self.assertLessEqual(made[-1][1], max(float(costs.ALLOWED), made[0][1]))
+        self.assertTrue(chosen)
+
+    def assert_shown(self, table):
+        for row in re.findall(r"<tr.*?>(.*?)</tr>", table)[1:]:
+            self.assertRegex(row, r"<td>[\d.]+</td><td>\d+</td><td>\d+</td><td>\d+\.\d\d</td>")
+        self.assertRegex(" ".join(table.split()), r"<b>Left out</b> of the shader, for this scene has no use for it: [a-z].*?\. Left out of the model: [\da-z]")
+
+    def test_the_errors_are_those_of_the_pages(self):
+        """--explain says of the plain picture what the pages' own comparison finds."""
+        command = "ShadingModels --shape teapot --turning-light off"
+        self.assertAlmostEqual(costs.searched(pathlib.Path(EXAMPLES), command, "255")[2], claims.largest(command), 1)
 
 
 class Diagrams(unittest.TestCase):

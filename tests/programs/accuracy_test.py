@@ -440,7 +440,7 @@ class Choices(Study):
     def test_error_says_what_it_leaves_away(self):
         for error in ("1", "30"):
             self.says(0, rf"view 0: .*; error [\d.]+ of {error} allowed inside objects "
-                      r"\(plain: [\d.]+\); not counted, but off by more than .*; [\d.]+ of the plain time\n", "--error", error, "-v",
+                      r"\(plain: [\d.]+\), expected cost \d+ \(plain: \d+\); not counted, but off by more than .*; [\d.]+ of the plain time\n", "--error", error, "-v",
                       "-o", error + ".png", program="ShadingModels", environment=self.own)
         self.assertNotEqual(self.png("1.png").pixels, self.png("30.png").pixels)
         self.says(0, "view 0: .*; [\\d.]+ of the plain time; from the cache\n", "--error", "30", "-v",

@@ -19,6 +19,12 @@ STEADY = """(() => {
     const {figures} = Book.book;
     return figures.every(figure => !figure.inSight || figure.drawn === figure.key());
 })()"""
+# Nothing is on its way that is in sight and does not wait for the reader.
+SEEN = f"""{STEADY} && (() => {{
+    const inSight = ({{top, bottom}} = {{}}) => bottom > 0 && top < innerHeight;
+    return [...document.querySelectorAll("figure:not([data-waits]) > img:not([hidden]), figure:not([data-waits]) .stack")].every(part =>
+        !inSight(part.getBoundingClientRect()) || (part.matches("img") ? part.complete && part.naturalWidth : part.matches(":not(.loading)")));
+}})()"""
 COLOURS = """((number, canvas = Book.book.figures[number].canvas) => {
     const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
     let text = "";
@@ -149,6 +155,22 @@ class Book(Case):
         finally:
             self.page.call("Page.removeScriptToEvaluateOnNewDocument", identifier=script)
 
+    def test_what_accuracy_costs_is_measured(self):
+        """Where figures are drawn, and where nothing is until then."""
+        for name in ("chapter03", "chapter12"):
+            self.open(name)
+            self.page.run("document.querySelector('.costs button').click()")
+            cells = self.page.wait("""(() => {
+                const cells = [...document.querySelectorAll(".costs tr[data-words] > :last-child")];
+                return cells.every(cell => !cell.hidden) && cells.map(cell => cell.textContent);
+            })()""")
+            self.assertGreaterEqual(len(cells), 3)
+            for text in cells:
+                self.assertRegex(text, r"^[0-9.]+ ms: [0-9.]+$")
+            self.assertRegex(cells[0], ": 1.00$")
+            if name == "chapter12":
+                self.assert_figure(0)
+
     def test_out_of_sight_it_rests(self):
         self.page.resize(1000, 600)
         self.open("chapter12")
@@ -201,15 +223,29 @@ class Book(Case):
             self.assertGreaterEqual(len(images.splitlines()) - 2, len(re.findall(r'<img[^>]* data-src="\w+\.png"', source)))
 
     def test_what_comes_at_once(self):
-        """With the pictures that are in sight, packed as a server sends them; on a phone, too."""
-        for width, height in ((1280, 900), (390, 800)):
+        """Before the reader does anything, with the pictures that are in sight, packed as a server sends them: in low and high windows."""
+        for width, height in ((360, 640), (360, 1440), (390, 800), (1280, 900), (1920, 1200), (2560, 1440)):
             self.page.resize(width, height)
             for name in CHAPTERS:
                 self.page.open(address(name))
-                self.page.wait(STEADY)
+                self.page.wait(SEEN)
                 loaded = {pathlib.Path(urllib.parse.unquote(urllib.parse.urlparse(url).path)) for url in self.page.requests() if url.startswith("file:")}
                 self.assertIn(pathlib.Path(SITE, "book.js"), loaded)
-                self.assertLess(sum(map(sizes.packed, loaded)), 250000, name)
+                self.assertLess(sum(map(sizes.packed, loaded)), 250000, (name, width, height))
+
+    def test_what_waits_comes_with_the_reader(self):
+        """A figure in sight that is beyond what comes at once says so, and how much it is; then the mouse moves."""
+        self.page.resize(2560, 1440)
+        waiting = 0
+        for name in CHAPTERS:
+            self.page.open(address(name))
+            self.page.wait(SEEN)
+            waits = self.page.run("[...document.querySelectorAll('[data-waits]')].map(figure => figure.dataset.waits)")
+            waiting += len(waits)
+            self.assertTrue(all(re.fullmatch(r"\d+ kB", text) for text in waits), waits)
+            self.page.mouse("mouseMoved", 5, 5)
+            self.page.wait(f"!document.querySelector('[data-waits]') && {SEEN}")
+        self.assertGreater(waiting, 0)
 
     def test_the_whole_on_paper(self):
         """As one PDF: every heading and figure in order, each picture, and the page of each chapter in the contents."""
