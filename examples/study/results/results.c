@@ -2,7 +2,6 @@
 
 #include "base/input.h"
 #include "base/memory.h"
-#include "base/output.h"
 #include "base/output_text.h"
 
 #include <errno.h>
@@ -169,28 +168,6 @@ bool results_parse(Results *results, const char *path, const char *text, size_t 
     return true;
 }
 
-/* Opens a regular file. -1 on failure: with a message, unless *missing is set. */
-static int open_file(const char *path, int flags, bool *missing, Message *message)
-{
-    struct stat status;
-    *missing = false;
-    /* Checked first, because opening some devices has side effects. */
-    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode)) {
-        message_set(message, "%s: is %s; results need a file", path,
-                    S_ISDIR(status.st_mode) ? "a folder" : "no regular file");
-        return -1;
-    }
-    const int file = open(path, flags | O_CLOEXEC | O_NOCTTY | O_NONBLOCK, 0666);
-    if (file < 0 && errno == ENOENT && !(flags & O_CREAT)) {
-        *missing = true;
-    } else if (file < 0) {
-        const int error = errno;
-        message_set(message, "%s: cannot %s: %s%s", path, flags & O_CREAT ? "write" : "read",
-                    strerror(error), error == ENOENT ? "; make its folder first" : "");
-    }
-    return file;
-}
-
 static bool size_check(const char *path, long long size, Message *message)
 {
     if (size <= RESULTS_SIZE_MAX)
@@ -199,28 +176,32 @@ static bool size_check(const char *path, long long size, Message *message)
                        path, size, RESULTS_SIZE_MAX);
 }
 
+/* The bytes of a regular file, to be freed; none if there is no such file. */
+static bool read_text(const char *path, char **text, size_t *size, Message *message)
+{
+    struct stat status;
+    Message why = {0};
+    *text = NULL;
+    *size = 0;
+    /* Checked first, because opening some devices has side effects. */
+    if (stat(path, &status) != 0)
+        return errno == ENOENT ||
+               message_set(message, "%s: cannot read: %s", path, strerror(errno));
+    if (!S_ISREG(status.st_mode))
+        return message_set(message, "%s: is %s; results need a file", path,
+                           S_ISDIR(status.st_mode) ? "a folder" : "no regular file");
+    if (!size_check(path, status.st_size, message))
+        return false;
+    *text = input_whole(path, size, &why);
+    return *text || message_set(message, "%s: cannot read: %s", path, why.text);
+}
+
 bool results_read(Results *results, const char *path, const ResultRow *like, Message *message)
 {
-    bool missing;
-    struct stat status;
-    char *text = NULL;
-    ssize_t used = 0;
-    const int file = open_file(path, O_RDONLY, &missing, message);
-    if (file < 0)
-        return missing;
-    bool done = fstat(file, &status) == 0 && S_ISREG(status.st_mode);
-    if (!done)
-        message_set(message, "%s: cannot read", path);
-    done = done && size_check(path, status.st_size, message);
-    if (done) {
-        text = malloc((size_t)status.st_size + 1);
-        used = text ? input_bytes(file, text, (size_t)status.st_size) : -1;
-        done = used >= 0;
-        if (!done)
-            message_set(message, "%s: cannot read: %s", path, strerror(errno));
-    }
-    close(file);
-    done = done && results_parse(results, path, text, (size_t)used, like, message);
+    char *text;
+    size_t size;
+    const bool done = read_text(path, &text, &size, message) &&
+                      results_parse(results, path, text, size, like, message);
     free(text);
     return done;
 }
@@ -267,123 +248,59 @@ static bool row_check(const ResultRow *row, const char *path, const char *text, 
                        fault.text);
 }
 
-/* The rows, preceded by the header if needed. */
-static bool put_rows(OutputText *text, const char *path, bool header, const ResultRow *rows,
-                     int count, Message *message)
+/* What the file has, if it is whole, and the rows. */
+static bool put_rows(OutputText *text, const char *path, const ResultRow *rows, int count,
+                     Message *message)
 {
-    if (header) {
-        char names[RESULTS_HEADER_SIZE];
-        header_text(names);
-        fprintf(text->file, "%s\n", names);
-    }
-    for (int i = 0; i < count; i++) {
+    char header[RESULTS_HEADER_SIZE], *old;
+    const char *next;
+    size_t size;
+    if (!read_text(path, &old, &size, message))
+        return false;
+    const bool cut = size == 0 || is_cut_header(old, size);
+    const bool known = cut || header_check(path, old, old + size, &next, message);
+    header_text(header);
+    if (cut)
+        fprintf(text->file, "%s\n", header);
+    else if (fwrite(old, 1, size, text->file) == size && old[size - 1] != '\n')
+        fputc('\n', text->file);
+    free(old);
+    for (int i = 0; i < count && known; i++) {
         const long start = ftell(text->file);
         put_row(text->file, &rows[i]);
         fflush(text->file);
         if (!row_check(&rows[i], path, text->text + start, text->size - (size_t)start, message))
             return false;
     }
-    return true;
+    fflush(text->file);
+    return known && size_check(path, (long long)text->size, message);
 }
 
-/* How much of an open file to keep, and whether it needs a header or a line break. */
-typedef struct Tail {
-    off_t keep;
-    bool header, line_break;
-} Tail;
-
-static bool tail_find(Tail *tail, int file, const char *path, Message *message)
+/* Two programs may append to one file: its folder is locked. -1: it cannot be, which is no reason
+ * to fail. */
+static int lock_folder(const char *path)
 {
-    struct stat status;
-    char start[2 * RESULTS_HEADER_SIZE], last = '\n';
-    const ssize_t used = input_bytes(file, start, sizeof start);
-    if (fstat(file, &status) != 0 || used < 0)
-        return message_set(message, "%s: cannot read: %s", path, strerror(errno));
-    *tail = (Tail){.keep = status.st_size};
-    if (is_cut_header(start, (size_t)used)) {
-        tail->keep = 0;
-        tail->header = true;
-        return true;
-    }
-    const char *next;
-    if (!header_check(path, start, start + used, &next, message))
-        return false;
-    if (status.st_size > 0 && pread(file, &last, 1, status.st_size - 1) != 1)
-        return message_set(message, "%s: cannot read: %s", path, strerror(errno));
-    tail->line_break = last != '\n';
-    return true;
-}
-
-/* Makes a new file's name durable; not every file system can. */
-static void sync_folder(const char *path)
-{
-    char folder[PATH_MAX] = ".";
+    char folder[PATH_MAX];
     const char *slash = strrchr(path, '/');
-    if (slash && (size_t)(slash - path) + 2 < sizeof folder)
-        snprintf(folder, (size_t)(slash - path) + 2, "%s", path);
-    const int file = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (file < 0)
-        return;
-    (void)!fsync(file);
-    close(file);
-}
-
-static bool append_text(int file, const char *path, const Tail *tail, const char *text, size_t size,
-                        Message *message)
-{
-    if (!size_check(path, (long long)tail->keep + (long long)size + 1, message))
-        return false;
-    if (tail->header && ftruncate(file, 0) != 0)
-        return message_set(message, "%s: cannot write: %s", path, strerror(errno));
-    if ((!tail->line_break || output_append(file, "\n", 1)) && output_append(file, text, size) &&
-        fsync(file) == 0)
-        return true;
-    const int error = errno;
-    const bool restored = ftruncate(file, tail->keep) == 0;
-    return message_set(message, "%s: cannot write: %s%s%s", path, strerror(error),
-                       error == ENOSPC || error == EDQUOT ? "; make room and run again" : "",
-                       restored ? "" : "; its last row may be truncated");
-}
-
-/* Opens and locks it. Who waits for the lock may get that of a file that a failed run has removed:
- * then again. -1 with a message on failure. */
-static int open_locked(const char *path, Message *message)
-{
-    for (;;) {
-        struct stat named, locked;
-        bool missing;
-        const int file = open_file(path, O_RDWR | O_CREAT | O_APPEND, &missing, message);
-        if (file < 0)
-            return -1;
-        while (flock(file, LOCK_EX) != 0 && errno == EINTR) /* two programs may append to one */
-            continue;
-        if (fstat(file, &locked) != 0 ||
-            (stat(path, &named) == 0 && named.st_ino == locked.st_ino &&
-             named.st_dev == locked.st_dev))
-            return file;
-        close(file);
-    }
+    snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - path) + 1 : 1,
+             slash ? path : ".");
+    const int lock = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    while (lock >= 0 && flock(lock, LOCK_EX) != 0 && errno == EINTR)
+        continue;
+    return lock;
 }
 
 bool results_append(const char *path, const ResultRow *rows, int count, Message *message)
 {
-    Tail tail;
     OutputText text;
-    struct stat status;
-    const bool created = access(path, F_OK) != 0;
-    const int file = open_locked(path, message);
-    if (file < 0)
-        return false;
+    const int lock = lock_folder(path);
     output_text_open(&text);
-    bool done = tail_find(&tail, file, path, message) &&
-                put_rows(&text, path, tail.header, rows, count, message) &&
-                append_text(file, path, &tail, text.text, text.size, message);
-    if (!done && created && fstat(file, &status) == 0 && status.st_size == 0)
-        unlink(path);             /* of a run that a full disk ended nothing is left */
-    if (close(file) != 0 && done) /* some file systems report a full disk only here */
-        done = message_set(message, "%s: cannot write: %s", path, strerror(errno));
-    if (done && tail.header)
-        sync_folder(path);
-    free(output_text_close(&text));
+    bool done = put_rows(&text, path, rows, count, message);
+    if (done)
+        done = output_text_write(&text, path, message);
+    else
+        free(output_text_close(&text));
+    if (lock >= 0)
+        close(lock);
     return done;
 }

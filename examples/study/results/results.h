@@ -111,10 +111,9 @@ bool results_read(Results *results, const char *path, const ResultRow *like, Mes
 bool results_parse(Results *results, const char *path, const char *text, size_t size,
                    const ResultRow *like, Message *message);
 
-/* Appends rows to a file; a new or empty one gets its header first. After a truncated last line (an
- * interrupted write) a new line is started; no part of a row parses as a row. On success the rows
- * are on disk; on failure the file is unchanged. Rows that results_read would skip and files with
- * other columns are refused. */
+/* Appends rows to a file; a new or empty one gets its header first. After a truncated last line a
+ * new line is started; no part of a row parses as a row. The file is replaced by one that is whole,
+ * or unchanged. Rows that results_read would skip and files with other columns are refused. */
 bool results_append(const char *path, const ResultRow *rows, int count, Message *message);
 
 /* All rows as JSON, keyed by the file's columns, completely or not at all. Unknown
