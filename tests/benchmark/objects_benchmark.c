@@ -2,10 +2,9 @@
  * What a scene's objects cost the processor, which is to submit them: of few pixels, drawn by
  * lighting and by a loop as one writes it by hand, which looks uniforms up once, sets those of the
  * lights once a frame, and for each object its matrices and products of colors; a million triangles
- * in the same two ways. What shadows cost by casters and lights, on a floor, at rest and while the
- * lights move. And scenes of files, and of this one, by their programs over the full one.
+ * in the same two ways. And scenes of files, and of this one, by their programs over the full one.
  *
- * An argument is the only table to be made: objects, triangles, shadows or scenes.
+ * An argument is the only table to be made: objects, triangles or scenes.
  */
 #include "benchmark/bench.h"
 #include "core/canvas.h"
@@ -21,17 +20,17 @@
 enum { SIZE = 32, ROUNDS = 5, MOST_OBJECTS = 10000, MOST_LIGHTS = 8, AT_LEAST = 1000 };
 
 static Lighting *lighting;
-static Mesh cube, plane, ball;
+static Mesh cube, ball;
 static const Mesh *drawn = &cube;
 static MeshBuffer buffer; /* of what is drawn, for the loop */
 
 static Light lights[MOST_LIGHTS];
-static Object objects[MOST_OBJECTS + 1];
+static Object objects[MOST_OBJECTS];
 static Scene scene;
 static int frames; /* that one measurement draws */
 
-/* A square of objects, a little above the floor, which is the last. */
-static void make_scene(int object_count, int light_count, bool shadows)
+/* A square of objects. */
+static void make_scene(int object_count, int light_count)
 {
     const int side = (int)ceil(sqrt(object_count));
     const double step = 20.0 / side;
@@ -53,24 +52,16 @@ static void make_scene(int object_count, int light_count, bool shadows)
     }
     for (int i = 0; i < light_count; i++)
         lights[i] = (Light){.kind = LIGHT_POINT,
-                            .shadows = shadows,
                             .position = {3.0 * i - 8, 9, 5.0 - i},
                             .ambient = {0.02, 0.02, 0.02},
                             .diffuse = {0.2, 0.2, 0.2},
                             .specular = {0.1, 0.1, 0.1}};
-    objects[object_count] =
-        (Object){.mesh = &plane,
-                 .solid = {.kind = SOLID_QUAD},
-                 .flat = true,
-                 .world_from_object = mat4_product(mat4_rotate(-90, (Vec3){1, 0, 0}),
-                                                   mat4_scale((Vec3){12, 12, 12})),
-                 .front = {{0.1, 0.1, 0.1}, {0.5, 0.5, 0.5}, {0, 0, 0}, {0, 0, 0}, 1, 1}};
     scene = (Scene){.camera = {{0, 16, 22}, {0, 0, 0}, {0, 1, 0}, 50, 1, 60, 0},
                     .global_ambient = {0.1, 0.1, 0.1},
                     .lights = lights,
                     .light_count = light_count,
                     .objects = objects,
-                    .object_count = object_count + shadows};
+                    .object_count = object_count};
     frames = object_count < AT_LEAST ? AT_LEAST / object_count : 1;
 }
 
@@ -173,7 +164,7 @@ static bool measure_both(Table *table, int object_count, int light_count, double
 {
     BenchRun both[] = {{"loop", draw_loop, NULL, NULL, 0},
                        {"lighting", draw_lighting, NULL, NULL, 0}};
-    make_scene(object_count, light_count, false);
+    make_scene(object_count, light_count);
     const BenchColumn columns[] = {{BENCH_TIME(0, scale / frames, 2)},
                                    {BENCH_TIME(1, scale / frames, 2)},
                                    {BENCH_RATIO(1, 0, 2)}};
@@ -278,45 +269,13 @@ static bool measure_scenes(Message *message)
     for (size_t i = 0; i < sizeof FILES / sizeof *FILES && done; i++)
         done = measure_file(&table, FILES[i], message);
     for (size_t i = 0; i < sizeof made / sizeof *made && done; i++) {
-        make_scene(made[i][0], made[i][1], false);
+        make_scene(made[i][0], made[i][1]);
         done = measure_scene(&table, "cubes", message);
     }
     bench_print(NULL, &table);
     canvas_close(&bench_canvas);
     bench_canvas = small;
     canvas_begin(&bench_canvas);
-    return done;
-}
-
-/* The lights move by so little that nothing looks different. */
-static bool draw_moving(void *argument, Message *message)
-{
-    for (int i = 0; i < scene.light_count; i++)
-        lights[i].position.x += 1e-9;
-    return draw_lighting(argument, message);
-}
-
-static bool measure_shadows(Message *message)
-{
-    static const int casters[] = {1, 10, 30, 100}, light_counts[] = {1, 2, 4};
-    Table table;
-    bool done = true;
-    table_open(&table, "casters|lights|at rest, µs a caster and light|lights move");
-    for (int c = 0; c < 4 && done; c++) {
-        for (int l = 0; l < 3 && done; l++) {
-            BenchRun both[] = {{"at rest", draw_lighting, NULL, NULL, 0},
-                               {"moving", draw_moving, NULL, NULL, 0}};
-            make_scene(casters[c], light_counts[l], true);
-            frames = casters[c] < 10 ? 10 : 1;
-            const double scale = 1e6 / ((double)casters[c] * light_counts[l] * frames);
-            const BenchColumn columns[] = {{BENCH_TIME(0, scale, 1)}, {BENCH_TIME(1, scale, 1)}};
-            done = bench_rounds(both, 2, 3, message);
-            if (done)
-                bench_row(&table, both, columns, 2, "%d|%d", casters[c], light_counts[l]);
-            bench_finish(both, 2);
-        }
-    }
-    bench_print("shadows", &table);
     return done;
 }
 
@@ -328,11 +287,9 @@ static bool asked(const char *table)
 static bool run(Message *message)
 {
     return lighting_open(&lighting, &(ShaderLoader){0}, message) &&
-           mesh_cube(&cube, 0.1, message) && mesh_quad(&plane, 1, message) &&
-           mesh_sphere(&ball, 0.05, 24, 22, message) &&
+           mesh_cube(&cube, 0.1, message) && mesh_sphere(&ball, 0.05, 24, 22, message) &&
            (!asked("objects") || measure_objects(message)) &&
            (!asked("triangles") || measure_triangles(message)) &&
-           (!asked("shadows") || measure_shadows(message)) &&
            (!asked("scenes") || measure_scenes(message));
 }
 
@@ -341,7 +298,6 @@ static void finish(void)
     lighting_close(lighting);
     mesh_close(&ball);
     mesh_close(&cube);
-    mesh_close(&plane);
 }
 
 const Bench BENCH = {
