@@ -10,10 +10,10 @@
 #include "base/output.h"
 #include "base/output_text.h"
 #include "study/arithmetic/arithmetic.h"
+#include "study/report/report_gnuplot.h"
 #include "study/results/table.h"
 
 #include <stdlib.h>
-#include <unistd.h>
 
 static bool json, markdown;
 static int inputs;
@@ -66,13 +66,7 @@ static bool report(const Arithmetics *found, const Options *options, Message *me
         return false;
     if (!arithmetic_plot(found, options->output, &plot)) {
         /* An earlier run's show other numbers. */
-        static const char *const endings[] = {"png", "svg"};
-        for (int i = 0; i < 2; i++) {
-            char path[PATH_MAX];
-            if (snprintf(path, sizeof path, "%s/precision.%s", options->output, endings[i]) <
-                PATH_MAX)
-                unlink(path);
-        }
+        gnuplot_forget(options->output, "precision", NULL);
         fprintf(stderr, "precision: no plot: %s\n", plot.text);
     }
     if (json)
