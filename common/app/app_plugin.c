@@ -4,10 +4,5 @@
 
 #include "base/build_id.h"
 
-static const char *version(void)
-{
-    return NULL;
-}
-
 __attribute__((visibility("default"))) const AppPlugin app_plugin = {
-    version, BUILD_ID, &CANVAS_OSMESA, example_main, shader_advise, shader_bounded};
+    BUILD_ID, &CANVAS_OSMESA, example_main, shader_advise, shader_bounded};

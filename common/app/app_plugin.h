@@ -13,7 +13,6 @@
 
 /* The variable `app_plugin`. */
 typedef struct AppPlugin {
-    PluginVersion *version;
     const char *build_id; /* of the sources; else program and plugin do not fit together */
     const CanvasBackend *osmesa;
     __typeof__(example_main) *main;

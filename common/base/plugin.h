@@ -7,8 +7,9 @@
 
 #include "base/message.h"
 
-/* What a plugin exports: a variable of a struct type, whose first member this is. */
-typedef const char *PluginVersion(void); /* of the library that it links: "1.16.0" */
+/* What a plugin that links a library exports: a variable of a struct type, whose first member this
+ * is. */
+typedef const char *PluginVersion(void); /* of the library: "1.16.0" */
 
 typedef struct Plugin {
     const char *file;    /* "image_oiio.so" */
@@ -29,7 +30,8 @@ typedef struct Plugin {
  * with a message that names the package. */
 const void *plugin_open(Plugin *plugin, Message *message);
 
-/* The same, and appends package_tell's line; true if the plugin was found. */
+/* The same of a plugin that links a library, and appends package_tell's line; true if the plugin
+ * was found. */
 bool plugin_probe(Plugin *plugin, Message *findings);
 
 /* Appends the line of a package to --doctor's findings: whether it is there, its version up to the

@@ -3,11 +3,6 @@
 
 #include "probe/show.h"
 
-static const char *version(void)
-{
-    return NULL;
-}
-
 static char *tell(const ProbeQuestion *question, bool json, Message *message)
 {
     Probe probe;
@@ -35,4 +30,4 @@ static ShowResult show(const Capture *capture, const GlslArithmetic *driver, con
 }
 
 __attribute__((visibility("default")))
-const ProbePlugin probe_plugin = {version, tell, show, show_names, probe_exact};
+const ProbePlugin probe_plugin = {tell, show, show_names, probe_exact};

@@ -15,7 +15,6 @@ typedef enum ShowResult { SHOW_DONE, SHOW_UNKNOWN, SHOW_FAILED } ShowResult; /* 
 
 /* The variable `probe_plugin`. */
 typedef struct ProbePlugin {
-    PluginVersion *version;
     /* What probe_text or probe_json write; NULL: a shader cannot be run, and why. */
     char *(*tell)(const ProbeQuestion *question, bool json, Message *message);
     /* What show_open computes, as show_paint paints it. */
