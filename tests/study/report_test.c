@@ -211,9 +211,9 @@ TEST_WITH(0, a_plot_names_the_efficient_ones, enter, leave)
     require(plot("It's `date` \"quoted\" \\n $HOME @x ^2_3 <&> {/Bold x}"), &message);
     char *svg = drawn("sphere");
     assert_non_null(strstr(svg, "It's `date` \"quoted\" \\n $HOME @x ^2_3 &lt;&amp;> {/Bold x}"));
-    assert_non_null(strstr(svg, ">gouraud, divisions 24<"));
+    assert_non_null(strstr(svg, ">interpolation=gouraud<"));
     assert_non_null(strstr(svg, ">usual<"));
-    assert_null(strstr(svg, ">gouraud, divisions 32<"));
+    assert_null(strstr(svg, ">divisions=32<"));
     assert_non_null(strstr(svg, ">\xE2\x89\xA4"
                                 "0.01<"));
     free(svg);
@@ -300,56 +300,6 @@ TEST_WITH(0, a_plot_without_a_folder_is_refused, enter, leave)
     assert_false(report_curves(&(ReportAxes){"", "", "", false, false, NULL, false}, NULL, 0, "out",
                                "../x", fresh()));
     assert_non_null(strstr(message.text, "../x: cannot be a file's name"));
-}
-
-/* Labels. */
-
-TEST_WITH(0, labels_do_not_overlap, enter, leave)
-{
-    Label labels[10];
-    Place path[10];
-    for (int i = 0; i < 10; i++) {
-        Quality quality = quality_usual();
-        quality.choice[AXIS_DIVISIONS] = (unsigned char)i;
-        quality.choice[AXIS_VIEWER] = (unsigned char)(i % 2);
-        path[i] = (Place){200 + 30 * i, 500 - 40 * i};
-        labels[i] = (Label){.point = path[i]};
-        label_name(&labels[i], &quality);
-    }
-    labels_place(labels, 10,
-                 &(LabelGround){
-                     .max = {1000, 700}, .path = path, .path_count = 10, .letter = 7, .line = 15});
-    int placed = 0;
-    for (int i = 0; i < 10; i++) {
-        const Label *a = &labels[i];
-        placed += a->placed;
-        for (int j = 0; j < 10 && a->placed; j++) {
-            const Label *b = &labels[j];
-            assert_true(path[j].x < a->min.x || path[j].x > a->max.x || path[j].y < a->min.y ||
-                        path[j].y > a->max.y);
-            assert_true(i == j || !b->placed || a->max.x < b->min.x || b->max.x < a->min.x ||
-                        a->max.y < b->min.y || b->max.y < a->min.y);
-        }
-    }
-    assert_true(placed >= 8);
-}
-
-TEST_WITH(0, a_name_is_short, enter, leave)
-{
-    Label label;
-    Quality quality = quality_usual();
-    label_name(&label, &quality);
-    assert_int_equal(label.line_count, 1);
-    assert_string_equal(label.lines[0], "usual");
-    quality.choice[AXIS_INTERPOLATION] = INTERPOLATION_GOURAUD;
-    quality.choice[AXIS_GUARDS] = GUARDS_OFF;
-    label_name(&label, &quality);
-    assert_string_equal(label.lines[0], "gouraud, guards off");
-    for (int axis = 0; axis < AXIS_COUNT; axis++)
-        quality.choice[axis] = (unsigned char)(QUALITY_AXES[axis].usual ? 0 : 1);
-    label_name(&label, &quality);
-    assert_int_equal(label.line_count, LABEL_LINES);
-    assert_non_null(strstr(label.lines[LABEL_LINES - 1], " more"));
 }
 
 /* Sheets. */

@@ -30,7 +30,7 @@ void report_pin_path(const char *folder, const char *scene, int pin, char path[P
 
 /* FOLDER/SCENE.svg and .png, by gnuplot: the largest error inside objects over time on logarithmic
  * axes, a point per row, coloured by interpolation, the efficient ones joined, and those with pins
- * labelled, if there is room, and joined to their pictures, as far as these files exist. Errors
+ * joined to what they are and to their pictures, as far as these files exist. Errors
  * below 0.01 are drawn at 0.01, and the axis says so. False if gnuplot is missing; the message
  * names the package. The folder must exist. */
 bool report_plot(const Results *results, const char *scene, const char *title, const char *folder,

@@ -1,16 +1,23 @@
 #include "study/report/report.h"
 #include "base/memory.h"
+#include "base/output_text.h"
+#include "base/text.h"
 #include "study/report/report_gnuplot.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 /* The plot area, in pixels from the lower left. */
-static const Place MIN = {115, 122}, MAX = {985, 480};
+typedef struct Place {
+    double x, y;
+} Place;
+static const Place MIN = {115, 122}, MAX = {985, 435};
 
-/* The pictures above it: the height of their captions' lines, and the boxes they fit in. */
-static const double CAPTION = 500, STRIP = 515, STRIP_HEIGHT = 92;
+/* The pictures above it: where their captions and below them their settings are, and the boxes they
+ * fit in. */
+static const double CAPTION = 500, SETTING = 479, SETTING_LINE = 17, STRIP = 515, STRIP_HEIGHT = 92;
 
 /* Smaller errors are drawn here. */
 static const double FLOOR = 0.01;
@@ -127,52 +134,10 @@ static bool plot_open(Plot *plot, const Results *results, const char *scene, Mes
     return true;
 }
 
-static void place_labels(const Plot *plot, Label *labels, int count)
-{
-    Place *places = memory_new((size_t)(plot->count + plot->front.count), sizeof *places);
-    for (int i = 0; i < plot->count; i++)
-        places[i] = place_of(plot, plot->rows[i]);
-    for (int i = 0; i < plot->front.count; i++)
-        places[plot->count + i] = place_of(plot, plot->front.rows[i]);
-    const double y = y_of(plot, ROUNDING);
-    labels_place(labels, count,
-                 &(LabelGround){.min = {MIN.x + 4, MIN.y + 4},
-                                .max = {MAX.x + 15, MAX.y},
-                                .taken_min = {MIN.x, y - 4},
-                                .taken_max = {MIN.x + 180, y + 26},
-                                .path = places + plot->count,
-                                .path_count = plot->front.count,
-                                .points = places,
-                                .point_count = plot->count,
-                                .letter = 10.5,
-                                .line = 21});
-    free(places);
-}
-
 static void set_screen(TemplateValues *values, const char *x, const char *y, Place place)
 {
     template_set(values, x, "%.5f", place.x / GNUPLOT_WIDTH);
     template_set(values, y, "%.5f", place.y / GNUPLOT_HEIGHT);
-}
-
-static void set_label(TemplateValues *page, const Label *label)
-{
-    const bool before = label->max.x <= label->point.x; /* it ends at the point */
-    const double step = (label->max.y - label->min.y) / label->line_count;
-    for (int j = 0; j < label->line_count && label->placed; j++) {
-        TemplateValues *line = template_add(page, "label");
-        gnuplot_set(line, "text", label->lines[j]);
-        set_screen(line, "x", "y",
-                   (Place){before ? label->max.x : label->min.x, label->max.y - (j + 0.5) * step});
-        template_set(line, "side", "%s", before ? "right" : "left");
-    }
-    if (!label->placed || !label->led)
-        return;
-    TemplateValues *leader = template_add(page, "leader");
-    set_screen(leader, "x0", "y0",
-               (Place){fmin(fmax(label->point.x, label->min.x), label->max.x),
-                       fmin(fmax(label->point.y, label->min.y), label->max.y)});
-    set_screen(leader, "x1", "y1", label->point);
 }
 
 static TemplateValues *add_row(TemplateValues *to, const ResultRow *row)
@@ -255,7 +220,7 @@ static void set_axes(TemplateValues *page, const Plot *plot)
     template_set(page, "height", "%d", GNUPLOT_HEIGHT);
 }
 
-/* A pin's picture in its part of the strip; lines from there to its point. */
+/* A pin's picture in its part of the strip. */
 static double pin_left(int pin)
 {
     const double part = (MAX.x - MIN.x + 80) / REPORT_PINS;
@@ -301,36 +266,56 @@ bool report_pins(ReportPins *pins, const Results *results, const char *scene, Me
     return true;
 }
 
+/* A setting's choices, in lines as wide as its picture; how many of these there are. */
+static int set_setting(TemplateValues *page, const Quality *quality, double middle)
+{
+    enum { WIDTH = 22, MOST = 3 };
+    char setting[QUALITY_TEXT_SIZE];
+    int count = 0;
+    OutputText wrapped;
+    output_text_open(&wrapped);
+    quality_text(quality, setting);
+    text_wrap(wrapped.file, setting, 0, 0, WIDTH);
+    char *text = output_text_close(&wrapped);
+    for (char *line = strtok(text, "\n"); line && count < MOST; line = strtok(NULL, "\n")) {
+        TemplateValues *values = template_add(page, "setting");
+        gnuplot_set(values, "text", line);
+        set_screen(values, "x", "y", (Place){middle, SETTING - SETTING_LINE * count++});
+    }
+    free(text);
+    return count;
+}
+
+/* A row's picture, what it is of, and a line from there to its point. */
+static bool set_pin(TemplateValues *page, const Plot *plot, int number, const char *path,
+                    bool first)
+{
+    const ResultRow *row = plot->pins.rows[number];
+    const double middle = pin_left(number) + pin_width() / 2, error = row->interior_maximum;
+    const double below = SETTING + 6 - SETTING_LINE * set_setting(page, &row->quality, middle);
+    TemplateValues *pin = template_add(page, "pin");
+    template_set(pin, "caption", "'%.*f ms, %.*f steps'", row->time < 9.95, row->time, error < 9.95,
+                 error);
+    set_screen(pin, "x0", "y", (Place){middle, CAPTION});
+    template_set(pin, "y0", "%.5f", below / GNUPLOT_HEIGHT);
+    set_screen(pin, "x1", "y1", place_of(plot, row));
+    return set_picture(page, plot, path, number, first);
+}
+
 bool report_plot(const Results *results, const char *scene, const char *title, const char *folder,
                  Message *message)
 {
     Plot plot;
-    Label labels[REPORT_PINS];
     char with[RESULT_WITH_SIZE], path[PATH_MAX];
     bool any = false;
     if (!plot_open(&plot, results, scene, message))
         return false;
-    for (int i = 0; i < plot.pins.count; i++) {
-        labels[i] = (Label){.point = place_of(&plot, plot.pins.rows[i])};
-        label_name(&labels[i], &plot.pins.rows[i]->quality);
-    }
-    place_labels(&plot, labels, plot.pins.count);
     results_measured_with(plot.rows[0], with);
     TemplateValues *page = gnuplot_values(title, with);
     set_axes(page, &plot);
     for (int i = 0; i < plot.pins.count; i++) {
-        set_label(page, &labels[i]);
-        const ResultRow *row = plot.pins.rows[i];
-        const double middle = pin_left(i) + pin_width() / 2;
-        const double error = row->interior_maximum;
-        TemplateValues *pin = template_add(page, "pin");
-        template_set(pin, "caption", "'%.*f ms, %.*f steps'", row->time < 9.95, row->time,
-                     error < 9.95, error);
-        set_screen(pin, "x0", "y", (Place){middle, CAPTION});
-        template_set(pin, "y0", "%.5f", (CAPTION - 12) / GNUPLOT_HEIGHT);
-        set_screen(pin, "x1", "y1", place_of(&plot, row));
         report_pin_path(folder, scene, i, path);
-        any |= set_picture(page, &plot, path, i, !any);
+        any |= set_pin(page, &plot, i, path, !any);
     }
     set_points(page, &plot);
     plot_close(&plot);

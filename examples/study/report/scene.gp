@@ -23,12 +23,9 @@ set key at screen 0.5,0.937 center top horizontal reverse Left samplen 1.5 width
 set arrow from graph 0,first 0.5 to graph 1,first 0.5 nohead back lw 1 dt 2 lc rgb '#999999'
 set label 'rounding to 8 bits' at screen {{rounding}},first 0.5 left offset 0,0.5 textcolor rgb '#666666'
 {{/rounding}}
-{{#label}}
-set label {{&text}} at screen {{x}},{{y}} front {{side}} textcolor rgb '#222222'
-{{/label}}
-{{#leader}}
-set arrow from screen {{x0}},{{y0}} to screen {{x1}},{{y1}} nohead front lw 0.7 lc rgb '#888888'
-{{/leader}}
+{{#setting}}
+set label {{&text}} at screen {{x}},{{y}} center front font ',14' textcolor rgb '#444444'
+{{/setting}}
 {{#pin}}
 set label {{&caption}} at screen {{x0}},{{y}} center front
 set arrow from screen {{x0}},{{y0}} to screen {{x1}},{{y1}} nohead back lw 1 lc rgb '#999999'
