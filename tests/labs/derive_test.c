@@ -176,6 +176,22 @@ static const struct {
      "not normalized: u_LightPosition[i] - v_Position and u_EyePosition - v_Position"},
     {6, 1, "vec4(color, v_Color.a)", "vec4(pow(color, vec3(1.0 / 2.2)), v_Color.a)",
      "power too many: vec3(1.0 / 2.2)"},
+    {8, 1,
+     "1.0 / (u_Attenuation.x + u_Attenuation.y * distance + u_Attenuation.z * distance * distance)",
+     "1.0 / u_Attenuation.x + 1.0 / (u_Attenuation.y * distance) + 1.0 / (u_Attenuation.z * "
+     "distance * distance)",
+     "each divided, not the sum: u_Attenuation.x + u_Attenuation.y * distance + ..."},
+    {5, 1, "vec3 light = u_AmbientLight;",
+     "vec3 sum; for (int k = 0; k < 2; k++) sum = u_LightColor[k] * max(dot(normal, "
+     "normalize(u_LightPosition[k] - v_Position)), 0.0); gl_FragColor = vec4((u_AmbientLight + "
+     "sum) * v_Color.rgb, v_Color.a); if (true) return; vec3 light = u_AmbientLight;",
+     "= for +=: sum"},
+    {7, 1, "vec3 halfway = normalize(lightDirection + viewDirection);",
+     "struct Ways { vec3 v, h; } w; w.h = normalize(lightDirection + viewDirection); w.v = "
+     "viewDirection; vec3 halfway = w.v;",
+     "halfway for w.h"},
+    {9, 1, "normalize(v_Normal)", "u_Mirrored * normalize(v_Normal)",
+     "u_Mirrored times the normal"},
 };
 
 TEST(test_names)

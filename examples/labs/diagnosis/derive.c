@@ -297,12 +297,6 @@ static void find_place(Derivation *all, const Found *found)
     free(values);
 }
 
-/* What is there, as a sentence says it. */
-static const char *was_text(const Mutation *mutation)
-{
-    return mutation->moves ? "where it is" : mutation->was;
-}
-
 /* After a colon the right program's words become the submission's, if the place is known; of one of
  * two mistakes it is not. */
 static void add(const Mutation *mutation, const char *place, bool alone, double sure,
@@ -333,7 +327,7 @@ static void say_mending(Derivation *all, const Found *found, Verdict *verdict)
              all->mended_twice ? " and the other change" : "");
     snprintf(sentence, sizeof sentence, "%s%sIt draws what is right with %s instead of %s%s.",
              known ? best->sentence : "", known && best->sentence[0] ? " " : "",
-             mending->by[0] ? mending->by : "nothing", was_text(mending),
+             mending->by[0] ? mending->by : "nothing", mending->was,
              all->mended_twice ? ", once the other mistake is mended, too" : "");
     change_take_text(all, found,
                      verdict_add_mistake(verdict, mending->mends, sentence, look,
@@ -454,10 +448,8 @@ static bool explain(Derivation *all, Verdict *verdict)
          (at_vertices_explain(all, verdict) || at_vertices_explain_own(all, verdict))) ||
         all->mended)
         return true;
-    /* Of lab 10's sphere normals and places are the same, so that two changes explain too much. */
-    return !all->lab->budget &&
-           (two_find(all, TWO_MEND) ||
-            (!blind && (search_two(all, TWO_LIKELY) || search_two(all, TWO_ANY))));
+    return two_find(all, TWO_MEND) ||
+           (!blind && (search_two(all, TWO_LIKELY) || search_two(all, TWO_ANY)));
 }
 
 bool derive_mistake(Derivation *all, Verdict *verdict)

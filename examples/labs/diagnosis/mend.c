@@ -139,9 +139,17 @@ static bool is_there(Derivation *all, const Found *found, PointShader *const men
     return there || (place > 0 && leads_there(all, mended));
 }
 
+/* Whether a leaves out what b puts in once more, or divides by: two of a sign are as none. */
+static bool undoes(const Mutation *a, const Mutation *b)
+{
+    static const char MANY[] = " too many: ";
+    const char *out = strstr(a->mends, MANY);
+    return out && strstr(b->by, out + strlen(MANY)) && !strstr(b->was, out + strlen(MANY));
+}
+
 /* Below 0: a is the better change: right to the last digit, and not by a formula instead of all;
- * not of a variable computed anew; where the first wrong value is; without an operand twice; of the
- * likelier rule; the earlier one; the smaller one. */
+ * not of a variable computed anew; what leaves out; where the first wrong value is; without an
+ * operand twice; of the likelier rule; the earlier one; the smaller one. */
 static int compare(const Derivation *all, const Found *a, const Found *b)
 {
     const GlslPlace *place = &all->own[a->stage].tree->nodes[a->mutation.node].place;
@@ -150,6 +158,8 @@ static int compare(const Derivation *all, const Found *a, const Found *b)
     const bool other_exact = b->apart <= DERIVATION_EQUAL && !b->mutation.formula;
     return exact != other_exact                   ? (int)other_exact - (int)exact
            : a->mutation.anew != b->mutation.anew ? (int)a->mutation.anew - (int)b->mutation.anew
+           : undoes(&a->mutation, &b->mutation)   ? -1
+           : undoes(&b->mutation, &a->mutation)   ? 1
            : a->there != b->there                 ? (int)b->there - (int)a->there
            : a->mutation.doubled != b->mutation.doubled
                ? (int)a->mutation.doubled - (int)b->mutation.doubled

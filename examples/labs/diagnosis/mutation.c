@@ -29,14 +29,17 @@ enum {
     BEGINS,
     OTHER_LIGHT,
     MOVE,
-    EXPONENT
+    EXPONENT,
+    SUMMED,
+    RECIPROCALS
 };
 static FormsEach *const EACH[] = {
     [EXCHANGE - EXCHANGE] = forms_exchanges,   [BRACKET - EXCHANGE] = forms_brackets,
     [UNBRACKET - EXCHANGE] = forms_unbrackets, [SPREAD - EXCHANGE] = forms_spreads,
     [LOGIC - EXCHANGE] = forms_logic,          [TURNS - EXCHANGE] = forms_turns,
     [BEGINS - EXCHANGE] = forms_begins,        [OTHER_LIGHT - EXCHANGE] = forms_lights,
-    [MOVE - EXCHANGE] = forms_moves,           [EXPONENT - EXCHANGE] = forms_exponents};
+    [MOVE - EXCHANGE] = forms_moves,           [EXPONENT - EXCHANGE] = forms_exponents,
+    [SUMMED - EXCHANGE] = forms_summed,        [RECIPROCALS - EXCHANGE] = forms_reciprocals};
 
 typedef struct Rule {
     int kind, op; /* `op`: of a built-in function its number, -1: any; of one component: 1 for
@@ -277,7 +280,8 @@ static void make(Maker *maker, int rule)
         (!maker->operands[5][0] && strstr(RULES[rule].by, "$5")) || !is_fresh(maker, by))
         return;
     fill(maker, RULES[rule].name, false, mutation.name, sizeof mutation.name);
-    snprintf(mutation.was, sizeof mutation.was, "%.199s", maker->operands[0]);
+    snprintf(mutation.was, sizeof mutation.was, "%.199s",
+             RULES[rule].kind == MOVE ? "where it is" : maker->operands[0]);
     snprintf(mutation.by, sizeof mutation.by, "%.199s", by);
     if (RULES[rule].mends[0])
         fill(maker, RULES[rule].mends, false, mutation.mends, sizeof mutation.mends);
@@ -298,7 +302,17 @@ static void make(Maker *maker, int rule)
     free(put);
 }
 
-/* What may stand for a value of this type: other variables, their elements and their colours. A
+/* Those of a structure. */
+static void add_fields(const GlslTree *tree, const GlslSymbol *symbol, int type, int *count,
+                       char names[MAX_NAMES][NAME_SIZE])
+{
+    const GlslType *of = &tree->types[symbol->type];
+    for (int i = of->field; i < of->field + of->fields && *count < MAX_NAMES; i++)
+        if (tree->fields[i].type == type)
+            snprintf(names[(*count)++], NAME_SIZE, "%s.%s", symbol->name, tree->fields[i].name);
+}
+
+/* What may stand for a value of this type: other variables, their elements, fields and colours. A
  * uniform that the text lacks has no line. */
 static int names_of(const GlslTree *tree, int type, bool declared, char names[MAX_NAMES][NAME_SIZE])
 {
@@ -310,6 +324,7 @@ static int names_of(const GlslTree *tree, int type, bool declared, char names[MA
             (declared && !symbol->place.line) ||
             (tree->stage == GLSL_VERTEX && symbol->storage == GLSL_VARYING)) /* not set yet */
             continue;
+        add_fields(tree, symbol, type, &count, names);
         const bool element = tree->types[symbol->type].element == type;
         const bool color = type == GLSL_VEC3 && symbol->type == GLSL_VEC4;
         const int first = element ? 1 : color ? 4 : 0, last = element ? 3 : first;

@@ -285,3 +285,42 @@ void forms_exponents(GlslTree *tree, int node, FormTake *take, void *context)
     if (above->kind == GLSL_VARIABLE_NODE && is_exponent(tree, tree->root, above->symbol, false))
         take(context, &(Form){.text = "1.0"});
 }
+
+/* Sums. */
+
+/* The declaration of a variable without a value; 0: it has one, or is none of these. */
+static int bare_declaration(const GlslTree *tree, const GlslNode *name)
+{
+    int found = 0;
+    for (int i = 1; i < tree->node_count && name->kind == GLSL_NAME && !found; i++)
+        if (tree->nodes[i].kind == GLSL_VARIABLE_NODE && tree->nodes[i].symbol == name->symbol &&
+            tree->symbols[name->symbol].storage == GLSL_LOCAL && !tree->nodes[i].first)
+            found = i;
+    return found;
+}
+
+void forms_summed(GlslTree *tree, int node, FormTake *take, void *context)
+{
+    const GlslNode at = tree->nodes[node];
+    const int variable = bare_declaration(tree, &tree->nodes[at.first]);
+    char type[64], zero[72], text[TEXT_SIZE], name[NAME_SIZE];
+    GlslNode was;
+    if (at.kind != GLSL_ASSIGN || at.op != GLSL_SET || !variable)
+        return;
+    memory_add(&tree->nodes, &tree->node_count, &tree->node_room, sizeof *tree->nodes);
+    const int value = tree->node_count - 1;
+    tree->nodes[value] = (GlslNode){.kind = GLSL_LITERAL};
+    tree->nodes[variable].first = value;
+    snprintf(zero, sizeof zero, "%s(0.0)", glsl_type_text(tree, at.type, type));
+    mutation_put(tree, value, zero, &was);
+    tree->nodes[node].op = GLSL_ADD;
+    glsl_expression_text(tree, node, text, sizeof text);
+    glsl_expression_text(tree, at.first, name, sizeof name);
+    char *whole = glsl_print(tree, tree->root);
+    tree->nodes[node].op = GLSL_SET;
+    mutation_take_back(tree, value, &was);
+    tree->nodes[variable].first = 0;
+    tree->node_count--;
+    take(context, &(Form){.text = text, .name = name, .whole = whole});
+    free(whole);
+}

@@ -297,3 +297,26 @@ void forms_spreads(GlslTree *tree, int node, FormTake *take, void *context)
         }
     }
 }
+
+void forms_reciprocals(GlslTree *tree, int node, FormTake *take, void *context)
+{
+    Chain sum = {.count = 0};
+    char text[TEXT_SIZE] = "", divided[TEXT_SIZE] = "", divisors[TEXT_SIZE] = "";
+    if (!is_top(tree, node, SUM) || strength(&tree->nodes[node]) != SUM)
+        return;
+    take_terms(tree, node, 0, &sum);
+    for (int i = 0; i < sum.count; i++) {
+        const GlslNode *term = &tree->nodes[sum.nodes[i]];
+        char first[TEXT_SIZE];
+        glsl_expression_text(tree, term->first, first, sizeof first);
+        if (term->kind != GLSL_BINARY || term->op != GLSL_DIVIDE || sum.ops[i] == GLSL_SUBTRACT ||
+            (i > 0 && strcmp(first, divided) != 0))
+            return;
+        strcpy(divided, first);
+        glsl_expression_text(tree, tree->nodes[term->first].next, first, sizeof first);
+        add(divisors, i > 0 ? " + %s" : "%s", first);
+    }
+    add(text, "%s", divided);
+    add(text, " / (%s)", divisors);
+    take(context, &(Form){.text = text, .name = divisors});
+}

@@ -40,6 +40,12 @@ FormsEach forms_moves;
 /* 1, for what a variable begins with that is the exponent of a power. */
 FormsEach forms_exponents;
 
+/* What is assigned to a variable (`name`), added to it, whose first value is 0 then. */
+FormsEach forms_summed;
+
+/* A sum of quotients of one number: that number divided by the sum. */
+FormsEach forms_reciprocals;
+
 /* The node that it is a child of; 0: none. */
 int forms_parent(const GlslTree *tree, int node);
 

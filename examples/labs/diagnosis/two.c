@@ -43,7 +43,7 @@ typedef struct Search {
     bool general; /* only changes that try no name and no number */
     Step steps[KEPT + 1], sharing[SHARING];
     int sharing_count; /* those that compute most of the goal's values */
-    int step_count, first, pairs, best_rank;
+    int step_count, first, pairs, best_first, best_rank;
     bool any;              /* each second change is tried */
     Term views[MAX_VIEWS]; /* all of the light; then its terms */
     int view_count;
@@ -262,6 +262,7 @@ static void take_pair(Search *search, const Mutation *second, int rank, const ch
     free(all->second.text);
     all->unique = all->two_found = true;
     search->best_rank = rank;
+    search->best_first = search->first;
     all->mending = first;
     all->mending.text = memory_text(first.text);
     all->second = found;
@@ -428,6 +429,11 @@ bool two_find(Derivation *all, TwoOf of)
     for (int stage = GLSL_VERTEX; stage <= GLSL_FRAGMENT; stage++)
         mutate_all(search, (GlslStage)stage, try_first);
     try_all_steps(search);
+    if (all->two_found && mends) { /* the second may have looked farther from right, alone */
+        search->first = search->best_first;
+        search->pairs = 0;
+        try_pairs(search);
+    }
     if (!all->two_found && of != TWO_LIKELY)
         try_any(search);
     if (!all->two_found && mends)
