@@ -55,12 +55,14 @@ void hard_forget(const Mesh *mesh)
         lighting_forget(hard.lightings[i], mesh);
 }
 
-void hard_exact(const Scene *scene, bool solids, Reference *exact)
+void hard_exact(const Scene *scene, Reference *exact)
 {
     const ReferenceOptions options = {
-        .width = hard.bytes.width, .height = hard.bytes.height, .meshes = !solids};
+        .width = hard.bytes.width, .height = hard.bytes.height, .meshes = true};
     SUCCEEDS(scene_check(scene, message));
     SUCCEEDS(reference_open(exact, scene, &options, message));
+    for (int i = 0; hard.skip_diagonal && i < exact->height; i++)
+        exact->interior[(exact->height - 1 - i) * exact->width + i] = 0;
 }
 
 /* The value of channel `c`, counted over all pixels, from 0 to 1. */
@@ -78,7 +80,7 @@ HardResult hard_draw(const Scene *scene, HardPrecision precision, const Referenc
     SUCCEEDS(scene_check(scene, message));
     const Reference *right = exact ? exact : &own;
     if (!exact)
-        hard_exact(scene, false, &own);
+        hard_exact(scene, &own);
     const LightingFrame frame = {.scene = scene};
     picture_draw(&hard.bytes, hard.lightings[precision], &frame, &hard.image);
     picture_draw(&hard.floats, hard.lightings[precision], &frame, &hard.real);
@@ -119,19 +121,11 @@ void hard_check_exact(const char *name, const Scene *scene, HardBound bound, con
              result.not_finite);
 }
 
-/* As hard_exact of meshes, without the diagonal where that is left out. */
-static void find_exact(const Scene *scene, Reference *exact)
-{
-    hard_exact(scene, false, exact);
-    for (int i = 0; hard.skip_diagonal && i < exact->height; i++)
-        exact->interior[(exact->height - 1 - i) * exact->width + i] = 0;
-}
-
 void hard_check(const char *name, const Scene *scene, HardPrecision precision, double max,
                 int min_pixels)
 {
     CLOSED(reference_close) Reference exact;
-    find_exact(scene, &exact);
+    hard_exact(scene, &exact);
     hard_check_exact(name, scene, (HardBound){precision, max, min_pixels}, &exact);
 }
 
@@ -237,7 +231,7 @@ void hard_each_way(const char *name, HardWorld *world, HardCheck *check)
     for (int way = 0; way < 2; way++) {
         CLOSED(reference_close) Reference exact;
         world->scene.interpolation = ways[way];
-        hard_exact(&world->scene, false, &exact);
+        hard_exact(&world->scene, &exact);
         check(name, world, HARD_HIGHP, &exact);
         check(name, world, HARD_MEDIUMP, &exact);
     }
@@ -269,7 +263,7 @@ void hard_check_ways(const char *name, const Scene *scene, double reach, int min
         CLOSED(reference_close) Reference exact;
         way.interpolation = ways[i];
         const double max = i ? COLORS_ONLY : oracle_mediump_max(scene, reach);
-        find_exact(&way, &exact);
+        hard_exact(&way, &exact);
         hard_check_exact(name, &way, (HardBound){HARD_HIGHP, 1, min_pixels}, &exact);
         hard_check_exact(name, &way, (HardBound){HARD_MEDIUMP, max, min_pixels}, &exact);
     }

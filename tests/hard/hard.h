@@ -18,7 +18,7 @@ typedef struct Hard {
     double worst[2], max[2]; /* since hard_report, by HardPrecision: the largest error of
                                 hard_check, and the loosest bound */
     int checked;             /* the number of pictures that hard_check has compared since */
-    bool skip_diagonal;      /* hard_check leaves out the pixels from bottom left to top right */
+    bool skip_diagonal;      /* hard_exact leaves out the pixels from bottom left to top right */
 } Hard;
 extern Hard hard; /* of the test program */
 
@@ -57,8 +57,8 @@ typedef struct HardResult {
 HardResult hard_draw(const Scene *scene, HardPrecision precision, const Reference *exact);
 void hard_forget(const Mesh *mesh);
 
-/* The exact picture of the scene's meshes, or with `solids` of its solids. */
-void hard_exact(const Scene *scene, bool solids, Reference *exact);
+/* The exact picture of the scene's meshes. */
+void hard_exact(const Scene *scene, Reference *exact);
 
 /* Draws a scene and compares. Fails the test with one line that names the case if a value is not
  * finite, fewer than `min_pixels` pixels are inside objects, or a byte is farther than `max` steps

@@ -148,7 +148,7 @@ DRAWN_TEST(singular_model_is_drawn_flat)
                 CLOSED(reference_close) Reference exact;
                 shown.scene.interpolation = way ? INTERPOLATION_GOURAUD : INTERPOLATION_PHONG;
                 world.scene.interpolation = shown.scene.interpolation;
-                hard_exact(&shown.scene, false, &exact);
+                hard_exact(&shown.scene, &exact);
                 check_steady(name, &world, HARD_HIGHP, &exact);
                 check_steady(name, &world, HARD_MEDIUMP, &exact);
             }
@@ -181,7 +181,7 @@ DRAWN_TEST(singular_model_shows_one_of_its_sides)
             world.objects[0].mesh = &sphere;
             sides[k] = side_of(&world, k == 0);
             world.objects[0].mesh = &sides[k];
-            hard_exact(&world.scene, false, &exact[k]);
+            hard_exact(&world.scene, &exact[k]);
         }
         world.objects[0].mesh = &sphere;
         world.objects[0].closed = false;
@@ -360,7 +360,7 @@ DRAWN_TEST(tiny_or_huge_scale_draws_the_same_picture)
         CLOSED(reference_close) Reference exact;
         make_scaled(&world, 1);
         world.scene.interpolation = way ? INTERPOLATION_GOURAUD : INTERPOLATION_PHONG;
-        hard_exact(&world.scene, false, &exact);
+        hard_exact(&world.scene, &exact);
         for (int i = 0; i < 8; i++) {
             char name[64];
             make_scaled(&world, UNITS[i]);
@@ -383,7 +383,7 @@ DRAWN_TEST(tiny_or_huge_scale_has_its_limits_in_mediump)
     HardWorld world;
     Reference exact, distant;
     make_scaled(&world, 1);
-    hard_exact(&world.scene, false, &exact);
+    hard_exact(&world.scene, &exact);
     for (int e = -8; e <= 5; e++) {
         make_scaled(&world, ldexp(1, e));
         check_exact("units that mediump holds", &world, HARD_MEDIUMP, &exact);
@@ -401,7 +401,7 @@ DRAWN_TEST(tiny_or_huge_scale_has_its_limits_in_mediump)
         world.lights[0].direction = (Vec3){2, 3, 4};
         world.scene.distant_viewer = true;
         if (i == 0)
-            hard_exact(&world.scene, false, &distant);
+            hard_exact(&world.scene, &distant);
         check_exact("units, all at infinity", &world, HARD_MEDIUMP, &distant);
     }
     reference_close(&distant);

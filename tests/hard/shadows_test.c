@@ -61,7 +61,7 @@ static void check_way(const char *name, Interpolation interpolation, HardPrecisi
 {
     CLOSED(reference_close) Reference exact;
     made.scene.interpolation = interpolation;
-    hard_exact(&made.scene, false, &exact);
+    hard_exact(&made.scene, &exact);
     for (int i = 0; i < SIZE * SIZE; i++)
         exact.interior[i] &= !unsure[i];
     hard_check_exact(name, &made.scene, (HardBound){precision, max, MIN_PIXELS}, &exact);

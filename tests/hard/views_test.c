@@ -67,7 +67,7 @@ TEST(look_at_nearly_parallel_draws_the_exact_picture)
         assert_true(vec3_normalize(vec3_cross((Vec3){0.6, 0, -0.8}, back), &side));
         across = vec3_cross(back, side);
         camera->up = across;
-        hard_exact(&world.scene, false, &exact);
+        hard_exact(&world.scene, &exact);
         check_exact("upright", &world, HARD_HIGHP, &exact);
         hard_keep(&upright);
         for (int i = 0; i < 6; i++) {
@@ -101,7 +101,7 @@ TEST(perspective_infinite_far_draws_the_same_picture)
     CLOSED(reference_close) Reference exact;
     HardWorld world;
     make_world(&world);
-    hard_exact(&world.scene, false, &exact);
+    hard_exact(&world.scene, &exact);
     for (int i = 0; i < 5; i++) {
         world.scene.camera.far = fars[i];
         hard_each_way("far plane", &world, check_exact);
@@ -144,7 +144,7 @@ static int count_wrong(const HardWorld *world)
 {
     Reference exact;
     int wrong = 0;
-    hard_exact(&world->scene, false, &exact);
+    hard_exact(&world->scene, &exact);
     assert_true(hard_draw(&world->scene, HARD_HIGHP, &exact).not_finite == 0);
     for (int i = 0; i < SIZE * SIZE; i++) {
         const unsigned char *byte = (const unsigned char *)hard.image.pixels + 4 * i;
@@ -213,7 +213,7 @@ TEST(world_at_the_end_of_its_range_is_bit_identical)
     HardWorld world, moved;
     CLOSED(reference_close) Reference exact;
     make_world(&world);
-    hard_exact(&world.scene, false, &exact);
+    hard_exact(&world.scene, &exact);
     for (HardPrecision precision = HARD_HIGHP; precision <= HARD_MEDIUMP; precision++) {
         static HardFrame here, there;
         moved = world;
