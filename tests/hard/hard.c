@@ -248,10 +248,7 @@ void hard_keep(HardFrame *frame)
 
 int hard_apart(const HardFrame *a, int pixel, const HardFrame *b, int other)
 {
-    int max = 0;
-    for (int c = 0; c < 4; c++)
-        max = (int)fmax(max, abs(a->bytes[4 * pixel + c] - b->bytes[4 * other + c]));
-    return max;
+    return pixel_levels(&a->bytes[4 * pixel], &b->bytes[4 * other]);
 }
 
 void hard_check_ways(const char *name, const Scene *scene, double reach, int min_pixels)

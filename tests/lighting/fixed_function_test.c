@@ -169,17 +169,13 @@ static int compare(const Image *ours, const Image *theirs, const Image *sides, T
     int apart = 0;
     for (int y = 0; y < SIZE; y++) {
         for (int x = 0; x < SIZE; x++) {
-            int max = 0;
-            for (int c = 0; c < 4; c++) {
-                const int levels = abs(pixel(ours, x, y)[c] - pixel(theirs, x, y)[c]);
-                max = levels > max ? levels : max;
-            }
+            const int levels = pixel_levels(pixel(ours, x, y), pixel(theirs, x, y));
             const bool edge = at_edge(sides, x, y);
-            tally->differing += max == 1;
+            tally->differing += levels == 1;
             tally->edges += edge;
-            tally->edges_apart += edge && max > 1;
+            tally->edges_apart += edge && levels > 1;
             tally->inner += !edge && pixel(sides, x, y)[0] != 0;
-            apart += !edge && max > 1;
+            apart += !edge && levels > 1;
         }
     }
     return apart;

@@ -88,6 +88,23 @@ void picture_check_keep_exact(const char *name, const Image *picture, const Refe
     image_close(&image);
 }
 
+int pixel_levels(const unsigned char a[4], const unsigned char b[4])
+{
+    int most = 0;
+    for (int c = 0; c < 4; c++)
+        most = abs(a[c] - b[c]) > most ? abs(a[c] - b[c]) : most;
+    return most;
+}
+
+int pixels_apart(const void *a, const void *b, int count, int levels)
+{
+    const unsigned char *p = a, *q = b;
+    int apart = 0;
+    for (int i = 0; i < count; i++, p += 4, q += 4)
+        apart += pixel_levels(p, q) > levels;
+    return apart;
+}
+
 bool picture_check_same(const char *name, const Image *picture, const Image *expected, int levels)
 {
     if (picture->type != IMAGE_BYTE || expected->type != IMAGE_BYTE ||

@@ -27,6 +27,11 @@ int picture_check_run(const char *name, CMFixtureFunction setup, CMFixtureFuncti
 void picture_draw(const Canvas *canvas, Lighting *lighting, const LightingFrame *frame,
                   Image *image);
 
+/* The largest difference between two pixels' channels, alpha included, and how many of `count`
+ * pixels are more than `levels` apart: steps of 1/255. */
+int pixel_levels(const unsigned char a[4], const unsigned char b[4]);
+int pixels_apart(const void *a, const void *b, int count, int levels);
+
 /* Whether two byte pictures differ by at most `levels` steps of 1/255 in every channel, alpha
  * included. If not, prints where they differ most and keeps both as `name`. */
 bool picture_check_same(const char *name, const Image *picture, const Image *expected, int levels);
