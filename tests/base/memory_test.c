@@ -58,13 +58,11 @@ FOLDER_TEST(lack_of_memory_ends_the_process_with_one_line)
     char expected[128];
     snprintf(expected, sizeof expected, "%s: not enough memory\n", program_invocation_short_name);
     for (way = ADDRESS_SANITIZER ? 2 : 0; way < 3; way++) {
-        char text[256] = "";
+        size_t size;
         assert_int_equal(testing_in_child(ask_for_too_much), MEMORY_EXIT);
-        FILE *log = fopen("log", "r");
-        assert_non_null(log);
-        text[fread(text, 1, sizeof text - 1, log)] = '\0';
-        fclose(log);
+        char *text = testing_read("log", &size);
         assert_string_equal(text, expected);
+        free(text);
         assert_int_equal(testing_entries("."), 1); /* the log */
     }
 }

@@ -9,24 +9,13 @@
  * Exit status 77 if there is none.
  */
 #include "app/options.h"
+#include "base/input.h"
 #include "core/canvas.h"
 #include "glsl/glsl.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static char *read_all(const char *path)
-{
-    char *text = NULL;
-    size_t size = 0;
-    FILE *file = fopen(path, "rb");
-    if (file && getdelim(&text, &size, '\0', file) < 0)
-        text[0] = '\0';
-    if (file)
-        fclose(file);
-    return text;
-}
 
 /* The trees are equal but for their places. */
 static bool same(const GlslTree *a, int x, const GlslTree *b, int y)
@@ -100,7 +89,10 @@ int main(int argc, char *argv[])
         return options_fail("glsl_judge", &message, 77);
     while (fgets(path, sizeof path, stdin)) {
         path[strcspn(path, "\n")] = '\0';
-        char *text = read_all(path);
+        size_t size;
+        char *text = input_whole(path, &size, &message);
+        if (!text)
+            return options_fail(path, &message, 1);
         const GlslStage stage = strstr(path, ".vert") ? GLSL_VERTEX : GLSL_FRAGMENT;
         printf("%s", path);
         ours(text, stage);
