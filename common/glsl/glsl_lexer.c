@@ -121,7 +121,8 @@ static int lex_operator(const char *text, unsigned char *kind)
                 {"*=", TOKEN_MULTIPLY},  {"/=", TOKEN_DIVIDE},     {"%=", TOKEN_LATER},
                 {"&=", TOKEN_LATER},     {"|=", TOKEN_LATER},      {"^=", TOKEN_LATER}};
     for (size_t i = 0; i < sizeof LONG / sizeof LONG[0]; i++)
-        if (text[0] == LONG[i].text[0] && strncmp(text, LONG[i].text, strlen(LONG[i].text)) == 0) {
+        if (text[0] == LONG[i].text[0] && text[1] == LONG[i].text[1] &&
+            strncmp(text, LONG[i].text, strlen(LONG[i].text)) == 0) {
             *kind = LONG[i].kind;
             return (int)strlen(LONG[i].text);
         }
@@ -134,7 +135,7 @@ static bool skip_space(Lexer *lexer)
 {
     const char *start = lexer->at;
     for (;;)
-        if (*lexer->at == ' ' || (*lexer->at && strchr("\t\v\f", *lexer->at)))
+        if (*lexer->at == ' ' || *lexer->at == '\t' || *lexer->at == '\v' || *lexer->at == '\f')
             lexer->at++;
         else if (lexer->at[0] == '/' && (lexer->at[1] == '/' || lexer->at[1] == '*'))
             skip_comment(lexer);

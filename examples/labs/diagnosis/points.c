@@ -281,9 +281,9 @@ static void look_up(void *context, int unit, int function, const double *coordin
 static bool is_left_out(const Points *points, const char *name, int element)
 {
     const int light = element == 0 ? POINTS_NO_FIRST : POINTS_NO_SECOND;
-    return (strcmp(name, "u_AmbientLight") == 0 && (points->without & POINTS_NO_AMBIENT)) ||
-           (strcmp(name, "u_SpecularColor") == 0 && (points->without & POINTS_NO_SPECULAR)) ||
-           (strcmp(name, "u_LightColor") == 0 && (points->without & light));
+    return ((points->without & POINTS_NO_AMBIENT) && strcmp(name, "u_AmbientLight") == 0) ||
+           ((points->without & POINTS_NO_SPECULAR) && strcmp(name, "u_SpecularColor") == 0) ||
+           ((points->without & light) && strcmp(name, "u_LightColor") == 0);
 }
 
 /* A mat3 has the upper left part of a mat4, a vec3 the first of four numbers. */
@@ -311,7 +311,9 @@ static void bind(const PointSetting *setting, PointShader *shader)
     shader->bound = memory_new((size_t)code->variable_count + 1, sizeof(int));
     for (int i = 0; i < code->variable_count; i++) {
         shader->bound[i] = -1;
-        for (int k = 0; code->variables[i].storage == GLSL_UNIFORM && k < setting->value_count; k++)
+        if (code->variables[i].storage != GLSL_UNIFORM)
+            continue;
+        for (int k = 0; k < setting->value_count && shader->bound[i] < 0; k++)
             if (strcmp(setting->values[k].name, code->variables[i].name) == 0)
                 shader->bound[i] = k;
         shader->lit |= is_left_out(&(Points){.without = ~0}, code->variables[i].name, 0);
