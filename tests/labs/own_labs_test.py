@@ -254,11 +254,11 @@ class Points(Case):
             mine = self.write(read(lab, "solution", "spot.frag"), "mine", "spot.frag")
             for old, new in changes:
                 self.change(old, new, "mine", "spot.frag")
-            found = result(lab, mine)
+            done = check("--lab", lab, mine, "--seed", "1", "--limit", str(base.PATIENCE), "--json", self.path("found.json"))
+            found = json.loads(read(self.path("found.json")))
             self.assertEqual([part["name"] for part in found["parts"] if part["state"] == "right"], right, changes)
             self.assertEqual((found["points"], sum(part["points"] for part in found["parts"])), (points, min(points - 1, 8)), changes)
-        said = check("--lab", lab, mine, "--seed", "1").stdout
-        self.assertIn("\n  ambient: right, 1 of 1 points\n  diffuse: wrong, 0 of 2 points\n", said)
+        self.assertIn("\n  ambient: right, 1 of 1 points\n  diffuse: wrong, 0 of 2 points\n", done.stdout)
         self.write("void main() {", "mine", "spot.frag")
         self.assertEqual([(part["state"], part["points"]) for part in result(lab, mine)["parts"]], [("not judged", 0)] * 4)
 
