@@ -145,7 +145,7 @@ static int add_probes(const LabPictures *pictures, Verdict *verdict)
     int worst = -1;
     for (int i = 0; i < pictures->count; i++) {
         const LabScene *lab_scene = &pictures->items[i].lab_scene;
-        const ErrorSum error = lab_pictures_error(pictures, i, pictures->truth);
+        const ErrorSum error = lab_picture_error(&pictures->items[i], pictures->truth);
         VerdictProbe *line = &verdict->probes[verdict->probe_count++];
         *line = (VerdictProbe){.known = lab_scene->known,
                                .width = lab_scene->width,
@@ -208,10 +208,10 @@ static bool look_at_precision(Session *session, Message *message)
     const Painter painter = {.lab = lab, .program = own_program(session)};
     if (lab->given || lab->budget || lab->solution_count)
         return true;
-    if (lab->either)
-        return lab_pictures_draw_own(&session->pictures, &painter, &session->canvas, message);
-    return lab_pictures_draw_huge(&session->pictures, session->verdict->seed, &painter,
-                                  &session->canvas, message);
+    session->pictures.own = lab->either;
+    return lab->either ? lab_pictures_draw(&session->pictures, &painter, &session->canvas, message)
+                       : lab_pictures_draw_huge(&session->pictures, session->verdict->seed,
+                                                &painter, &session->canvas, message);
 }
 
 /* What no text says: found by drawing otherwise. */

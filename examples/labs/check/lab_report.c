@@ -46,7 +46,7 @@ static bool try_mutant(void *context, const Mutation *mutation, const char *text
     report->failed = !lab_pictures_draw(pictures, &painter, report->canvas, report->message);
     shader_close(&shader);
     for (int i = 0; i < pictures->count && !report->failed; i++) {
-        const double error = lab_pictures_error(pictures, i, pictures->truth).maximum;
+        const double error = lab_picture_error(&pictures->items[i], pictures->truth).maximum;
         shown |= error > lab_pictures_tolerance(pictures, i);
         most = fmax(most, error);
     }

@@ -51,6 +51,13 @@ static bool is_same_inside(const Reference *exact, const Reference *mask, int x,
     return fabs(mask->depth[pixel] - exact->depth[pixel]) <= DEPTH * exact->depth[pixel];
 }
 
+/* Where in the image the exact picture's pixel is: its center that of a square of pixels. */
+static size_t middle_of(const Image *image, const Reference *exact, int x, int y)
+{
+    const int side = image->width / exact->width, half = side / 2;
+    return (size_t)(side * y + half) * (size_t)image->width + (size_t)(side * x + half);
+}
+
 ErrorSum compare_exact(const Image *image, const Reference *exact, const Reference *mask)
 {
     ErrorSum sum = {.pixels = 0};
@@ -59,7 +66,9 @@ ErrorSum compare_exact(const Image *image, const Reference *exact, const Referen
             const size_t i = (size_t)y * (size_t)exact->width + (size_t)x;
             if (is_same_inside(exact, mask, x, y) || (mask && is_deep(exact, x, y)) ||
                 is_empty(exact, x, y))
-                error_sum_add(&sum, pixel_error(image, i, &exact->color[3 * i]), i);
+                error_sum_add(
+                    &sum, pixel_error(image, middle_of(image, exact, x, y), &exact->color[3 * i]),
+                    i);
         }
     }
     return sum;
@@ -95,9 +104,10 @@ static bool at_edge(const Image *image, int x, int y)
 void compare_take(Reference *exact, const Image *image)
 {
     const unsigned char *bytes = image->pixels;
-    for (int p = 0; p < image->width * image->height; p++) {
+    for (int p = 0; p < exact->width * exact->height; p++) {
+        const int i = (int)middle_of(image, exact, p % exact->width, p / exact->width);
         for (int c = 0; c < 3; c++)
-            exact->color[3 * p + c] = (float)bytes[4 * p + c] / 255;
-        exact->interior[p] &= !at_edge(image, p % image->width, p / image->width);
+            exact->color[3 * p + c] = (float)bytes[4 * i + c] / 255;
+        exact->interior[p] &= !at_edge(image, i % image->width, i / image->width);
     }
 }

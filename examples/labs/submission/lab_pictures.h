@@ -19,10 +19,10 @@
 /* Over the pixels inside an object and over background pixels without an object next to them.
  * `mask`: the exact picture of the meshes as drawn; NULL if they are the shapes. Pixels where the
  * two have different outlines do not count, unless they are more than two pixels inside the exact
- * one. */
+ * one. Of an image an odd number of times as large the middle pixels of squares are compared. */
 ErrorSum compare_exact(const Image *image, const Reference *exact, const Reference *mask);
 
-/* Makes what a solution drew the exact picture; pixels at edges are not interior. */
+/* Makes what a solution drew, as large or larger, the exact picture; no edge is interior. */
 void compare_take(Reference *exact, const Image *image);
 
 /* Two pictures may be right: light at the vertices or at the fragments, or in lab 7 the fitted
@@ -44,7 +44,7 @@ typedef struct LabPictures {
     int count;
     int truth_count;
     int truth; /* the one nearest to the submission, over all scenes */
-    bool own;  /* the pictures are those of lab_pictures_draw_own */
+    bool own;  /* drawn in the files' own precision: errors that 16 bits explain are right */
     SubmissionGeometry geometry;
     Mat4 world_from_object[LAB_PICTURES_MAX], normal_matrix[LAB_PICTURES_MAX]; /* lab 3 */
     Mesh mesh;                                                                 /* lab 10 */
@@ -67,11 +67,6 @@ bool lab_pictures_draw(LabPictures *pictures, const Painter *painter, Canvas *ca
  * that 16 bits explain count as right. */
 bool lab_pictures_draw_huge(LabPictures *pictures, uint64_t seed, const Painter *painter,
                             Canvas *canvas, Message *message);
-
-/* Draws all scenes again with this program, of the files' own precision. Errors that 16 bits
- * explain count as right. */
-bool lab_pictures_draw_own(LabPictures *pictures, const Painter *painter, Canvas *canvas,
-                           Message *message);
 
 /* Whether the picture is right at a size and an offset drawn by the seed and, in lab 10, at the
  * size whose operations are counted. Not for lab 3, whose shaders are given. */
@@ -100,8 +95,8 @@ double lab_pictures_tolerance(const LabPictures *pictures, int i);
 bool lab_pictures_is_right(const LabPictures *pictures, const Painter *painter, Canvas *canvas,
                            bool *right, Message *message);
 
-/* Scene i's error against a truth. */
-ErrorSum lab_pictures_error(const LabPictures *pictures, int i, int truth);
+/* A scene's error against a truth. */
+ErrorSum lab_picture_error(const LabPicture *picture, int truth);
 
 void lab_pictures_close(LabPictures *pictures);
 
