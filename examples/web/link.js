@@ -73,5 +73,11 @@ const Link = (() => {
         return new Map(pairs);
     }
 
-    return {read, write, packed, join, pack, unpack};
+    /* Who writes embed after the # means it before: that address; "" if there is none. */
+    function embedding({hash, search}) {
+        const parts = hash.replace(/^#/, "").split("&"), isIt = part => /^embed(=|$)/.test(part), found = parts.find(isIt);
+        return found ? `?${[...search.slice(1).split("&"), found].filter(part => part).join("&")}#${parts.filter(part => !isIt(part)).join("&")}` : "";
+    }
+
+    return {read, write, packed, join, pack, unpack, embedding};
 })();

@@ -533,6 +533,9 @@ const Page = (() => {
 
     /* Scene's page has nothing to draw before a file is chosen. */
     async function open() {
+        const meant = Link.embedding(location);
+        if (meant)
+            return location.replace(meant);
         document.body.classList.toggle("embed", Boolean(embedded));
         files?.listen(takeFiles, fail);
         page.begun = performance.now();

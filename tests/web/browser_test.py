@@ -911,6 +911,24 @@ class Pages(Case):
         self.assertLessEqual(self.page.run("document.documentElement.scrollWidth"), 360)
         self.page.click(".revert")
 
+    def test_the_picture_stays_in_sight(self):
+        """While a text or an option far below is changed: on a phone, and beside a lab's editor."""
+        seen = """(selector => {
+            const {left, top, width, height} = document.querySelector(selector).getBoundingClientRect();
+            return document.elementFromPoint(left + width / 2, top + height / 2)?.id;
+        })"""
+        for name, picture, sizes in (("LightedCube", "picture", [(390, 800)]), ("Materials", "picture", [(390, 800), (800, 1000)]),
+                                     ("lab01_diffuse", "drawn", [(390, 800), (1280, 900)])):
+            for width, height in sizes:
+                self.page.resize(width, height)
+                self.open(name)
+                self.page.run("document.querySelector('.apply').focus()")
+                with self.subTest(name, width=width):
+                    self.assertEqual(self.page.run(f"{seen}('#{picture}')"), picture)
+                    self.assertTrue(self.page.run("document.querySelector('.apply').contains(document.elementFromPoint(...(({left, top}) => "
+                                                  "[left + 5, top + 5])(document.querySelector('.apply').getBoundingClientRect())))"))
+                    self.assertLessEqual(self.page.run("document.documentElement.scrollWidth"), width)
+
     def test_predecessors(self):
         self.open("PointLightedCube")
         self.page.click(".diff summary")

@@ -174,6 +174,9 @@ class Sharing(Case):
             "Materials.html#material=gold&shininess=90"))
         # With another's text: it asks here, too.
         texts = [["lighting/output.glsl", "vec3 output_color(vec3 color) { return color.bgr; }"]]
+        # After the # it is meant as before it.
+        self.page.open(address("Materials", "material=gold&embed=shininess&time=2"), "document.body.matches('.embed') && document.body.dataset.ready")
+        self.assertEqual(self.page.run("location.href.split('/').pop()"), "Materials.html?embed=shininess#material=gold&time=2")
         self.page.open(address("Materials").replace(".html", ".html?embed") + "#text=" + packed(json.dumps(texts).encode()))
         self.assertTrue(self.page.run("document.getElementById('draw-it').offsetHeight"))
 
