@@ -25,10 +25,13 @@ MeshBox mesh_bounds(const Mesh *mesh)
     if (mesh->vertex_count > 0)
         box.low = box.high = vec3_from_float(mesh->vertices[0].position);
     for (size_t i = 1; i < mesh->vertex_count; i++) {
-        const Vec3 low = box.low, high = box.high;
         const Vec3 p = vec3_from_float(mesh->vertices[i].position);
-        box.low = (Vec3){fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z)};
-        box.high = (Vec3){fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z)};
+        box.low.x = p.x < box.low.x ? p.x : box.low.x;
+        box.low.y = p.y < box.low.y ? p.y : box.low.y;
+        box.low.z = p.z < box.low.z ? p.z : box.low.z;
+        box.high.x = p.x > box.high.x ? p.x : box.high.x;
+        box.high.y = p.y > box.high.y ? p.y : box.high.y;
+        box.high.z = p.z > box.high.z ? p.z : box.high.z;
     }
     return box;
 }
@@ -49,7 +52,9 @@ static Vec3 across(const Mesh *mesh, size_t triangle)
 
 bool mesh_face(const Mesh *mesh, size_t triangle, Vec3 *normal)
 {
-    return vec3_normalize(across(mesh, triangle), normal);
+    const Vec3 area = across(mesh, triangle);
+    const double square = vec3_dot(area, area); /* of floats: neither 0 nor infinite by rounding */
+    return normal ? vec3_normalize(area, normal) : square > 0 && square < HUGE_VAL;
 }
 
 /* 0 times a finite number is 0, times any other NaN. */
@@ -97,20 +102,25 @@ static double corner_weight(double sine, Vec3 a, Vec3 b, MeshWeight weight)
     return atan2(sine, vec3_dot(a, b));
 }
 
-bool mesh_compute_normals(Mesh *mesh, MeshWeight weight, Message *message)
+bool mesh_compute_normals(Mesh *mesh, MeshWeight weight, bool missing, Message *message)
 {
     /* A sum below this fraction of its terms is rounding. */
     static const double CANCELLED = 1e-12;
     typedef struct Sum {
         Vec3 normals;
         double weights;
+        bool kept; /* it has a normal */
     } Sum;
     Sum *sums = calloc(mesh->vertex_count + 1, sizeof *sums);
     if (!sums)
         return message_set(message, "mesh: not enough memory for the normals of %zu vertices",
                            mesh->vertex_count);
-    for (size_t i = 0; i < mesh->vertex_count; i++)
-        vec3_to_float((Vec3){0, 0, 1}, mesh->vertices[i].normal);
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        float *n = mesh->vertices[i].normal;
+        sums[i].kept = missing && (n[0] != 0 || n[1] != 0 || n[2] != 0);
+        if (!sums[i].kept)
+            vec3_to_float((Vec3){0, 0, 1}, n);
+    }
     for (size_t triangle = 0; triangle < mesh->index_count / 3; triangle++) {
         const uint32_t *corner = &mesh->indices[3 * triangle];
         const Vec3 area = across(mesh, triangle);
@@ -121,6 +131,8 @@ bool mesh_compute_normals(Mesh *mesh, MeshWeight weight, Message *message)
         for (int i = 0; i < 3; i++) {
             const uint32_t vertex = corner[i];
             Sum *sum = &sums[vertex];
+            if (sum->kept)
+                continue;
             const double share = corner_weight(sine, edge(mesh, vertex, corner[(i + 1) % 3]),
                                                edge(mesh, vertex, corner[(i + 2) % 3]), weight);
             if (sum->weights == 0)

@@ -57,7 +57,7 @@ typedef struct MeshBox {
 MeshBox mesh_bounds(const Mesh *mesh);
 
 /* The unit normal of triangle number `triangle`, on the side from which it is counter-clockwise.
- * False, and a zero vector, if it has no area. */
+ * False, and a zero vector, if it has no area. NULL: only whether it has. */
 bool mesh_face(const Mesh *mesh, size_t triangle, Vec3 *normal);
 
 /* Whether positions and normals are finite, colors 0 to 1 and indices in range: "mesh: vertex 7:
@@ -84,11 +84,11 @@ typedef enum MeshWeight {
     MESH_WEIGHT_MAX,
 } MeshWeight;
 
-/* Gives each vertex the weighted mean of the normals of its triangles with an area. If they cancel,
- * as on the edge of a doubled sheet, the normal is the first triangle's; without any it is +z.
- * Vertices at the same position stay separate: an edge between them stays sharp. On failure
- * (memory) the mesh is unchanged. */
-bool mesh_compute_normals(Mesh *mesh, MeshWeight weight, Message *message);
+/* Gives each vertex (`missing`: without a normal) the weighted mean of the normals of its triangles
+ * with an area. If they cancel, as on the edge of a doubled sheet, the normal is the first
+ * triangle's; without any it is +z. Vertices at the same position stay separate: an edge between
+ * them stays sharp. On failure (memory) the mesh is unchanged. */
+bool mesh_compute_normals(Mesh *mesh, MeshWeight weight, bool missing, Message *message);
 
 /* NULL or zeroed is fine. */
 void mesh_close(Mesh *mesh);

@@ -70,16 +70,19 @@ static bool are_equal(const MeshVertex *a, const MeshVertex *b, bool normals)
     return equal;
 }
 
-static uint64_t hash_of(const MeshVertex *vertex, bool normals)
+uint64_t mesh_hash(const MeshVertex *vertex, bool normals)
 {
     Random hash = {0};
-    for (int k = 0; k < (normals ? 6 : 3); k++) {
+    const int count = normals ? 6 : 3;
+    for (int k = 0; k < count; k++) {
         const float value = (k < 3 ? vertex->position[k] : vertex->normal[k - 3]) + 0.0F;
         uint32_t bits;
         memcpy(&bits, &value, sizeof bits);
-        hash.state = random_bits(&hash) ^ bits;
+        hash.state ^= (uint64_t)bits << 32 * (k % 2);
+        if (k % 2 == 1 || k == count - 1)
+            hash.state = random_bits(&hash);
     }
-    return random_bits(&hash);
+    return hash.state;
 }
 
 /* A hash table with open addressing (Knuth, The art of computer programming, volume 3, section 6.4,
@@ -92,7 +95,7 @@ bool mesh_weld(const Mesh *mesh, bool normals, uint32_t *first)
     uint32_t *slots = calloc(mask + 1, sizeof *slots); /* a number plus 1; 0: free */
     for (size_t i = 0; slots && i < mesh->vertex_count; i++) {
         const MeshVertex *vertex = &mesh->vertices[i];
-        size_t slot = hash_of(vertex, normals) & mask;
+        size_t slot = mesh_hash(vertex, normals) & mask;
         while (slots[slot] && !are_equal(vertex, &mesh->vertices[slots[slot] - 1], normals))
             slot = (slot + 1) & mask;
         if (!slots[slot])

@@ -14,6 +14,9 @@ bool mesh_open_colors(Mesh *mesh, Message *message);
 
 bool mesh_copy(Mesh *copy, const Mesh *mesh, Message *message);
 
+/* 64 random bits, the same for the same position and, with `normals`, normal. */
+uint64_t mesh_hash(const MeshVertex *vertex, bool normals);
+
 /* For each vertex the number of the first one at its position and, with `normals`, with its normal.
  * False: not enough memory. */
 bool mesh_weld(const Mesh *mesh, bool normals, uint32_t *first);

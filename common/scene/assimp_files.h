@@ -25,10 +25,4 @@ struct aiFileIO assimp_files(Folder *folder);
 char *assimp_texture(const struct aiScene *scene, const Folder *folder, const char *path,
                      size_t *size, Message *why);
 
-/* Whether a PLY file was cut. */
-
-/* False, with the reason, if the file ends before the rows that its header names; true of anything
- * that is no PLY file. */
-bool model_ply_is_whole(const char *path, char *reason, size_t reason_size);
-
 #endif

@@ -220,7 +220,7 @@ static void keep_brightest_lights(FileScene *made)
         if (most[k] > least || (most[k] == least && equal-- > 0))
             file->lights[kept++] = file->lights[k];
         else
-            scene_file_note(file, NOTE_LIGHTS);
+            scene_file_note(file, true, NOTE_LIGHTS);
     free(most);
     file->light_count = kept;
 }

@@ -81,8 +81,7 @@ static bool add_light(Reading *reading, const json_t *node, int number)
         gltf_fields(gltf_own(from), LIGHT_FIELDS, &to->light);
     } else {
         reading->file->photometric = true;
-        if (to->light.exponent > 0)
-            scene_file_note(reading->file, NOTE_SPOT);
+        scene_file_note(reading->file, to->light.exponent > 0, NOTE_SPOT);
     }
     return true;
 }
@@ -111,8 +110,7 @@ static bool add_camera(Reading *reading, const json_t *node, int number)
                                        : DEGREES * gltf_number(lens, "yfov", 0.8),
                           .near = gltf_number(lens, "znear", 0) + away,
                           .far = far > 0 ? far + away : 0};
-    if (flat)
-        scene_file_note(reading->file, NOTE_ORTHOGRAPHIC);
+    scene_file_note(reading->file, flat, NOTE_ORTHOGRAPHIC);
     if (gltf_own(from)) {
         to->node = -1;
         gltf_fields(gltf_own(from), CAMERA_FIELDS, &to->camera);
@@ -173,8 +171,7 @@ static bool visit(Reading *reading, Visit now, Visits *visits)
     const int number = reading->nodes[now.node] = reading->file->node_count - 1;
     added->parent = now.parent;
     place_node(node, added);
-    if (gltf_extension(node, "EXT_mesh_gpu_instancing"))
-        scene_file_note(reading->file, NOTE_INSTANCES);
+    scene_file_note(reading->file, gltf_extension(node, "EXT_mesh_gpu_instancing"), NOTE_INSTANCES);
     push_all(visits, json_object_get(node, "children"), number);
     return gltf_add_objects(reading, node, number) && add_light(reading, node, number) &&
            add_camera(reading, node, number);
@@ -273,7 +270,7 @@ static bool read_animation(Reading *reading)
     const json_t *first = count ? gltf_item(&reading->gltf, "animations", 0) : NULL;
     const json_t *channels = json_object_get(first, "channels");
     for (size_t i = 1; i < count; i++)
-        scene_file_note(reading->file, NOTE_ANIMATION);
+        scene_file_note(reading->file, true, NOTE_ANIMATION);
     for (size_t i = 0; i < json_array_size(channels); i++)
         if (!add_channel(reading, json_array_get(channels, i), json_object_get(first, "samplers")))
             return false;

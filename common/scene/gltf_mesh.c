@@ -68,16 +68,13 @@ static void note_material(const Reading *reading, const json_t *material)
     const json_t *value;
     const char *key, *mode = json_string_value(json_object_get(material, "alphaMode"));
     bool textures = false, base = false;
-    if (mode && strcmp(mode, "OPAQUE") != 0)
-        scene_file_note(reading->file, NOTE_TRANSPARENT);
+    scene_file_note(reading->file, mode && strcmp(mode, "OPAQUE") != 0, NOTE_TRANSPARENT);
     json_object_foreach(json_object_get(material, "pbrMetallicRoughness"), key, value) *
         (strcmp(key, "baseColorTexture") == 0 ? &base : &textures) |=
         strstr(key, "Texture") != NULL;
     json_object_foreach((json_t *)material, key, value) textures |= strstr(key, "Texture") != NULL;
-    if (base)
-        scene_file_note(reading->file, NOTE_MEAN);
-    if (textures)
-        scene_file_note(reading->file, NOTE_TEXTURES);
+    scene_file_note(reading->file, base, NOTE_MEAN);
+    scene_file_note(reading->file, textures, NOTE_TEXTURES);
     json_object_foreach(json_object_get(material, "extensions"), key, value)
     {
         char text[120];
@@ -86,7 +83,7 @@ static void note_material(const Reading *reading, const json_t *material)
             strcmp(key, "KHR_materials_pbrSpecularGlossiness") == 0)
             continue;
         snprintf(text, sizeof text, "%.60s: left out", key);
-        scene_file_note(reading->file, text);
+        scene_file_note(reading->file, true, text);
     }
 }
 
@@ -156,8 +153,8 @@ static void set_material(Reading *reading, const json_t *from, bool colored, Obj
         to->specular = to->emission = (Vec3){0, 0, 0};
     else if (unlit)
         *to = (Material){.emission = base, .alpha = to->alpha};
-    if (colored && (unlit || (factor > 0 && !gloss)))
-        scene_file_note(reading->file, unlit ? NOTE_UNLIT : NOTE_METAL);
+    scene_file_note(reading->file, colored && (unlit || (factor > 0 && !gloss)),
+                    unlit ? NOTE_UNLIT : NOTE_METAL);
     object->two_sided = json_is_true(json_object_get(from, "doubleSided"));
     object->back = *to;
     if (from)
@@ -199,34 +196,23 @@ static uint32_t *read_corners(Reading *reading, const json_t *primitive, size_t 
     return corners;
 }
 
-/* One attribute of the vertices; NULL: it has none, or it failed. */
+/* One attribute of the vertices, whose number is 0 before their positions are read; NULL: it has
+ * none, or it failed. */
 static double *read_attribute(Reading *reading, const json_t *primitive, const char *name,
-                              size_t vertices, int *size)
+                              size_t *vertices, int *size)
 {
     const json_int_t accessor = gltf_whole(json_object_get(primitive, "attributes"), name, -1);
     size_t count = 0;
     double *numbers = accessor >= 0 ? gltf_accessor(&reading->gltf, accessor, &count, size) : NULL;
-    if (numbers && (*size < 3 || *size > 4 || (vertices && count != vertices))) {
+    if (numbers &&
+        (*size < 3 || *size > (*vertices ? 4 : 3) || (*vertices && count != *vertices))) {
         message_set(reading->gltf.reason, "accessors %lld: no %s of %zu vertices",
-                    (long long)accessor, name, vertices ? vertices : count);
+                    (long long)accessor, name, *vertices ? *vertices : count);
         free(numbers);
         return NULL;
     }
+    *vertices = numbers ? count : *vertices;
     return numbers;
-}
-
-static double *read_positions(Reading *reading, const json_t *primitive, size_t *count)
-{
-    const json_int_t accessor =
-        gltf_whole(json_object_get(primitive, "attributes"), "POSITION", -1);
-    int size = 0;
-    if (accessor < 0)
-        return NULL;
-    double *positions = gltf_accessor(&reading->gltf, accessor, count, &size);
-    if (positions && size != 3)
-        message_set(reading->gltf.reason, "accessors %lld: positions must be VEC3",
-                    (long long)accessor);
-    return positions;
 }
 
 static void copy3(float to[3], const double *from)
@@ -238,7 +224,7 @@ static void copy3(float to[3], const double *from)
 /* Of a primitive. */
 typedef struct Attributes {
     double *positions, *normals, *colors, *lit;
-    int normal_size, color_size, lit_size;
+    int size, normal_size, color_size, lit_size;
     Vec3 tint;
 } Attributes;
 
@@ -301,12 +287,12 @@ static int read_primitive(Reading *reading, const json_t *primitive, Vec3 tint)
     if (gltf_extension(primitive, "KHR_draco_mesh_compression") &&
         !json_object_get(json_array_get(accessors, (size_t)places), "bufferView"))
         message_set(reading->gltf.reason, "its meshes are compressed by Draco; save it without");
-    from.positions = read_positions(reading, primitive, &vertices);
+    from.positions = read_attribute(reading, primitive, "POSITION", &vertices, &from.size);
     uint32_t *corners = from.positions ? read_corners(reading, primitive, vertices, &count) : NULL;
     if (corners && !gltf_failed(reading)) {
-        from.normals = read_attribute(reading, primitive, "NORMAL", vertices, &from.normal_size);
-        from.colors = read_attribute(reading, primitive, "COLOR_0", vertices, &from.color_size);
-        from.lit = read_attribute(reading, primitive, "_LIT_POSITION", vertices, &from.lit_size);
+        from.normals = read_attribute(reading, primitive, "NORMAL", &vertices, &from.normal_size);
+        from.colors = read_attribute(reading, primitive, "COLOR_0", &vertices, &from.color_size);
+        from.lit = read_attribute(reading, primitive, "_LIT_POSITION", &vertices, &from.lit_size);
         reading->indices += count;
         reading->vertices += from.normals && vertices < count ? vertices : count;
         if (!gltf_failed(reading) &&
@@ -354,8 +340,7 @@ bool gltf_add_objects(Reading *reading, const json_t *node, int number)
             json_object_get(json_object_get(primitive, "attributes"), "COLOR_0"), &object.object);
         if (*known == -1 && !gltf_failed(reading))
             *known = read_primitive(reading, primitive, object.object.front.ambient);
-        if (*known == -2)
-            scene_file_note(reading->file, NOTE_LINES);
+        scene_file_note(reading->file, *known == -2, NOTE_LINES);
         if (gltf_failed(reading) || *known < 0)
             continue;
         FileObject *added = scene_file_add(reading->file, FILE_OBJECTS, reading->gltf.reason);
@@ -365,10 +350,8 @@ bool gltf_add_objects(Reading *reading, const json_t *node, int number)
         gltf_name(object.name, json_object_get(node, "name") ? node : mesh);
         set_own(gltf_own(node), &object.object);
         *added = object;
-        if (json_object_get(node, "skin"))
-            scene_file_note(reading->file, NOTE_SKIN);
-        if (json_object_get(primitive, "targets"))
-            scene_file_note(reading->file, NOTE_MORPH);
+        scene_file_note(reading->file, json_object_get(node, "skin"), NOTE_SKIN);
+        scene_file_note(reading->file, json_object_get(primitive, "targets"), NOTE_MORPH);
     }
     return !gltf_failed(reading);
 }

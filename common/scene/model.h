@@ -1,7 +1,7 @@
 /*
  * model: reads model files as meshes. No GL.
  *
- * OBJ, PLY, STL, OFF, glTF, 3DS, COLLADA and all other formats of Assimp, through a plugin; if that
+ * glTF, OBJ, PLY, STL, OFF, 3DS, COLLADA and all other formats of Assimp, through a plugin; if that
  * is missing, reading fails with a message that names the package. Assimp runs in a child process
  * with limited time and memory, because damaged files can make it loop or crash.
  */
@@ -12,10 +12,10 @@
 
 /* Reads all meshes of a file into one, transformed by the file's nodes. Polygons are triangulated;
  * points, lines and degenerate triangles are left out; vertices of equal position and normal are
- * merged. Normals are normalized; missing or zero ones are computed by mesh_compute_normals,
- * weighted by angle, smooth across all edges (of glTF: those of the
- * triangles). It is turned so that y points up; size
- * and place are the file's: see mesh_bounds.
+ * merged, unless each is used thrice on average and has a normal. Normals are normalized; missing
+ * or zero ones are computed by mesh_compute_normals, weighted by angle, smooth across all edges (of
+ * glTF: those of the triangles). It is turned so that y points up; size and place are the file's:
+ * see mesh_bounds.
  *
  * Fails, with a message of one line and a zeroed mesh, if the file cannot be read, is not a model,
  * is damaged (as far as its format shows), too large, or has no triangle or a number that is not

@@ -1,5 +1,6 @@
 /*
- * The plugin that reads files of scenes with Assimp; glTF 2.0 goes to gltf.c, OBJ to model_obj.c.
+ * The plugin that reads files of scenes with Assimp; glTF 2.0 goes to gltf.c, OBJ to
+ * model_obj.c, PLY to model_ply.c.
  */
 #include "base/memory.h"
 #include "core/mesh_make.h"
@@ -136,12 +137,9 @@ static void note_material(SceneFile *file, const struct aiMaterial *material, do
     for (int kind = 1; kind <= AI_TEXTURE_TYPE_MAX; kind++)
         *(kind == aiTextureType_DIFFUSE || kind == aiTextureType_BASE_COLOR ? &base : &textures) |=
             aiGetMaterialTextureCount(material, (enum aiTextureType)kind) > 0;
-    if (base)
-        scene_file_note(file, NOTE_MEAN);
-    if (textures)
-        scene_file_note(file, NOTE_TEXTURES);
-    if (alpha < 1)
-        scene_file_note(file, NOTE_TRANSPARENT);
+    scene_file_note(file, base, NOTE_MEAN);
+    scene_file_note(file, textures, NOTE_TEXTURES);
+    scene_file_note(file, alpha < 1, NOTE_TRANSPARENT);
 }
 
 /* Of the texture of a material's diffuse colour; white: it has none. */
@@ -269,8 +267,7 @@ static bool add_light(Walk *walk, const struct aiLight *from, int node)
     /* Or it is amplified near by. */
     walk->file->photometric |= fmax(fmax(diffuse.x, diffuse.y), diffuse.z) > 1 ||
                                (to->light.constant < 1 && light_fades(&to->light));
-    if (from->mType == aiLightSource_AREA)
-        scene_file_note(walk->file, NOTE_AREA);
+    scene_file_note(walk->file, from->mType == aiLightSource_AREA, NOTE_AREA);
     if (color_is_black(to->light.specular))
         to->light.specular = diffuse;
     if (to->light.kind == LIGHT_DIRECTIONAL)
@@ -363,7 +360,7 @@ static bool add_object(Walk *walk, const struct aiNode *node, int number, unsign
     const struct aiMesh *part = walk->scene->mMeshes[index];
     const unsigned material = material_number(walk, part);
     if (walk->file->meshes[index].index_count == 0) {
-        scene_file_note(walk->file, NOTE_LINES);
+        scene_file_note(walk->file, true, NOTE_LINES);
         return true;
     }
     FileObject *object = scene_file_add(walk->file, FILE_OBJECTS, walk->reason);
@@ -375,10 +372,8 @@ static bool add_object(Walk *walk, const struct aiNode *node, int number, unsign
     object->object = walk->materials[material];
     if (material < walk->scene->mNumMaterials)
         note_material(walk->file, walk->scene->mMaterials[material], object->object.front.alpha);
-    if (part->mNumBones)
-        scene_file_note(walk->file, NOTE_SKIN);
-    if (part->mNumAnimMeshes)
-        scene_file_note(walk->file, NOTE_MORPH);
+    scene_file_note(walk->file, part->mNumBones, NOTE_SKIN);
+    scene_file_note(walk->file, part->mNumAnimMeshes, NOTE_MORPH);
     return true;
 }
 
@@ -427,21 +422,18 @@ static bool collect(const struct aiScene *scene, ModelUp up, const Folder *folde
     walk.scale = cbrt(fabs(mat4_determinant(matrix(&scene->mRootNode->mTransformation))));
     walk.scale = walk.scale > 0 ? walk.scale : 1;
     for (unsigned i = 1; i < scene->mNumAnimations; i++)
-        scene_file_note(file, NOTE_ANIMATION);
+        scene_file_note(file, true, NOTE_ANIMATION);
     make_materials(&walk);
     const bool done = add_meshes(&walk) && visit(&walk, scene->mRootNode, -1, &world_from_file);
     free(walk.materials);
     return done;
 }
 
-bool assimp_read(const char *path, ModelUp up, SceneFile *file, Message *reason)
+static bool assimp_read(const char *path, ModelUp up, SceneFile *file, Message *reason)
 {
-    char cut[256] = "";
     const char *slash = strrchr(path, '/');
     Folder folder = {.path = path, .length = slash ? (size_t)(slash + 1 - path) : 0};
     struct aiFileIO io = assimp_files(&folder);
-    if (!model_ply_is_whole(path, cut, sizeof cut))
-        return message_set(reason, "%s", cut);
     struct aiPropertyStore *properties = aiCreatePropertyStore();
     /* By default Assimp makes meshes for files of bones alone. */
     aiSetImportPropertyInteger(properties, AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);
@@ -454,8 +446,7 @@ bool assimp_read(const char *path, ModelUp up, SceneFile *file, Message *reason)
         return message_set(reason, "it needs %s, which is outside its folder", folder.refused);
     if (!scene)
         return message_set(reason, "%s", aiGetErrorString());
-    if (folder.refused[0])
-        scene_file_note(file, NOTE_OUTSIDE);
+    scene_file_note(file, folder.refused[0], NOTE_OUTSIDE);
     const bool collected = collect(scene, up, &folder, file, reason);
     aiReleaseImport(scene);
     return collected;

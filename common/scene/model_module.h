@@ -15,11 +15,16 @@ typedef struct ModelModule {
     bool (*read)(const char *path, ModelUp up, SceneFile *file, Message *reason);
 } ModelModule;
 
-/* The readers: Assimp's, and our own of glTF 2.0 and OBJ. `*other`: it is of another format. */
-bool assimp_read(const char *path, ModelUp up, SceneFile *file, Message *reason);
+/* Our own readers, of glTF 2.0, OBJ and PLY. `*other`: it is of another format. */
 bool own_read(const char *path, SceneFile *file, bool *other, Message *reason);
 
 /* glTF 2.0. `*other`, and true: it is not of this format. */
 bool gltf_read(const char *path, SceneFile *file, bool *other, Message *reason);
+
+/* PLY, from its bytes and a zero byte after them; `folder` is the open one of the file. */
+bool ply_read(const char *bytes, size_t size, int folder, SceneFile *file, Message *reason);
+
+/* The mean colour of a texture that it names: scene/texture_mean.h. */
+Vec3 own_mean(SceneFile *file, int folder, const char *path);
 
 #endif

@@ -43,11 +43,11 @@ typedef struct Obj {
     bool colored;
     int *first; /* vertex of the mesh at each position; -1: none */
     Corner *corners;
-    int *polygon;
-    uint32_t *indices;
-    int corner_count, corner_room, index_count, index_room, polygon_count, polygon_room;
-    size_t vertices, triangles; /* of the meshes before */
-    Paint *paints;              /* the first is that of faces without */
+    uint32_t *polygon;
+    TriangleList faces;
+    int corner_count, corner_room, polygon_count, polygon_room;
+    size_t vertices, indices; /* of the meshes before */
+    Paint *paints;            /* the first is that of faces without */
     int paint_count, paint_room, paint;
     char name[FILE_NAME];
 } Obj;
@@ -96,13 +96,21 @@ static char *take_rest(const char **at)
 
 /* Materials */
 
-static char *read_beside(Obj *obj, const char *path, size_t *size, Message *why)
+static char *read_beside(SceneFile *file, int folder, const char *path, size_t *size, Message *why)
 {
     if (!input_leaves(path) && !strchr(path, ':'))
-        return input_read(obj->folder, path, path, MODEL_BYTES_MAX, size, why);
-    scene_file_note(obj->file, NOTE_OUTSIDE);
+        return input_read(folder, path, path, MODEL_BYTES_MAX, size, why);
+    scene_file_note(file, true, NOTE_OUTSIDE);
     message_set(why, "refused");
     return NULL;
+}
+
+Vec3 own_mean(SceneFile *file, int folder, const char *path)
+{
+    Message why = {0};
+    size_t size = 0;
+    char *bytes = read_beside(file, folder, path, &size, &why);
+    return texture_mean(file, path, bytes, size, &why);
 }
 
 static void add_paint(Obj *obj, char *name)
@@ -140,12 +148,8 @@ static void read_material_line(Obj *obj, const char *at, Paint *paint)
     paint->textures |= strncmp(at, "map_", 4) == 0 && strncmp(at, "map_Kd", 6) != 0;
     if (!take_word(&at, "map_Kd"))
         return;
-    Message why = {0};
-    size_t size = 0;
     char *rest = take_rest(&at), *space = rest[0] == '-' ? strrchr(rest, ' ') : NULL;
-    const char *path = space ? space + 1 : rest; /* after options */
-    char *bytes = read_beside(obj, path, &size, &why);
-    paint->mean = texture_mean(obj->file, path, bytes, size, &why);
+    paint->mean = own_mean(obj->file, obj->folder, space ? space + 1 : rest); /* after options */
     paint->base = true;
     free(rest);
 }
@@ -155,9 +159,8 @@ static void read_materials(Obj *obj, const char *path)
     Message why = {0};
     size_t size = 0;
     const int first = obj->paint_count;
-    char *bytes = read_beside(obj, path, &size, &why);
-    if (!bytes)
-        scene_file_note(obj->file, "files of materials that cannot be read: grey");
+    char *bytes = read_beside(obj->file, obj->folder, path, &size, &why);
+    scene_file_note(obj->file, !bytes, "files of materials that cannot be read: grey");
     for (const char *at = bytes; at; at = strchr(at, '\n'), at = at ? at + 1 : NULL)
         if (take_word(&at, "newmtl"))
             add_paint(obj, take_rest(&at));
@@ -184,10 +187,10 @@ static Object painted(const Paint *paint)
 
 static bool fill_mesh(Obj *obj, Mesh *mesh, Vec3 diffuse)
 {
-    if (!mesh_open(mesh, (size_t)obj->corner_count, (size_t)obj->index_count, obj->reason) ||
+    if (!mesh_open(mesh, (size_t)obj->corner_count, (size_t)obj->faces.count, obj->reason) ||
         (obj->colored && !mesh_open_colors(mesh, obj->reason)))
         return false;
-    memcpy(mesh->indices, obj->indices, mesh->index_count * sizeof *mesh->indices);
+    memcpy(mesh->indices, obj->faces.corners, mesh->index_count * sizeof *mesh->indices);
     for (int i = 0; i < obj->corner_count; i++) {
         const Corner *corner = &obj->corners[i];
         const size_t bytes = sizeof *obj->positions.all;
@@ -206,7 +209,7 @@ static bool fill_mesh(Obj *obj, Mesh *mesh, Vec3 diffuse)
 static bool end_mesh(Obj *obj)
 {
     const Paint *paint = &obj->paints[obj->paint];
-    if (obj->index_count == 0)
+    if (obj->faces.count == 0)
         return true;
     Mesh *mesh = scene_file_add(obj->file, FILE_MESHES, obj->reason);
     FileObject *object = mesh ? scene_file_add(obj->file, FILE_OBJECTS, obj->reason) : NULL;
@@ -215,19 +218,16 @@ static bool end_mesh(Obj *obj)
     object->object = painted(paint);
     object->mesh = obj->file->mesh_count - 1;
     memcpy(object->name, obj->name, sizeof object->name);
-    if (paint->base)
-        scene_file_note(obj->file, NOTE_MEAN);
-    if (paint->textures)
-        scene_file_note(obj->file, NOTE_TEXTURES);
-    if (object->object.front.alpha < 1)
-        scene_file_note(obj->file, NOTE_TRANSPARENT);
+    scene_file_note(obj->file, paint->base, NOTE_MEAN);
+    scene_file_note(obj->file, paint->textures, NOTE_TEXTURES);
+    scene_file_note(obj->file, object->object.front.alpha < 1, NOTE_TRANSPARENT);
     if (!fill_mesh(obj, mesh, object->object.front.diffuse))
         return false;
     for (int i = 0; i < obj->corner_count; i++)
         obj->first[obj->corners[i].position] = -1;
     obj->vertices += (size_t)obj->corner_count;
-    obj->triangles += (size_t)obj->index_count / 3;
-    obj->corner_count = obj->index_count = 0;
+    obj->indices += (size_t)obj->faces.count;
+    obj->corner_count = obj->faces.count = 0;
     return true;
 }
 
@@ -267,19 +267,10 @@ static bool take_corner(Obj *obj, int *vertex)
     return true;
 }
 
-static void add_polygon(Obj *obj)
+static Vec3 place_of(const void *of, uint32_t vertex)
 {
-    const int count = obj->polygon_count;
-    Vec3 *places = memory_new((size_t)count, sizeof *places);
-    int *triangles = memory_new(3 * (size_t)count, sizeof *triangles);
-    for (int i = 0; i < count; i++)
-        places[i] = vec3_from_float(obj->positions.all[obj->corners[obj->polygon[i]].position]);
-    polygon_cut(places, count, triangles);
-    for (int i = 0; i < 3 * (count - 2); i++)
-        *(uint32_t *)memory_add(&obj->indices, &obj->index_count, &obj->index_room,
-                                sizeof *obj->indices) = (uint32_t)obj->polygon[triangles[i]];
-    free(places);
-    free(triangles);
+    const Obj *obj = of;
+    return vec3_from_float(obj->positions.all[obj->corners[vertex].position]);
 }
 
 static bool read_face(Obj *obj)
@@ -288,15 +279,15 @@ static bool read_face(Obj *obj)
         int vertex;
         if (!take_corner(obj, &vertex))
             return false;
-        *(int *)memory_add(&obj->polygon, &obj->polygon_count, &obj->polygon_room,
-                           sizeof *obj->polygon) = vertex;
+        *(uint32_t *)memory_add(&obj->polygon, &obj->polygon_count, &obj->polygon_room,
+                                sizeof *obj->polygon) = (uint32_t)vertex;
     }
     if (obj->polygon_count > 2)
-        add_polygon(obj);
+        polygon_add(&obj->faces, obj->polygon, obj->polygon_count, place_of, obj);
     else
-        scene_file_note(obj->file, NOTE_LINES);
+        scene_file_note(obj->file, true, NOTE_LINES);
     return scene_file_fits(obj->vertices + (size_t)obj->corner_count,
-                           3 * obj->triangles + (size_t)obj->index_count, obj->reason);
+                           obj->indices + (size_t)obj->faces.count, obj->reason);
 }
 
 static bool read_vector(Obj *obj, Vectors *list)
@@ -346,10 +337,9 @@ static bool read_line(Obj *obj)
         return read_vector(obj, &obj->normals);
     if (take_word(&obj->at, "f"))
         return read_face(obj);
-    if (take_word(&obj->at, "l") || take_word(&obj->at, "p"))
-        scene_file_note(obj->file, NOTE_LINES);
-    if (take_word(&obj->at, "curv") || take_word(&obj->at, "surf"))
-        scene_file_note(obj->file, "curves and surfaces: left out");
+    scene_file_note(obj->file, take_word(&obj->at, "l") || take_word(&obj->at, "p"), NOTE_LINES);
+    scene_file_note(obj->file, take_word(&obj->at, "curv") || take_word(&obj->at, "surf"),
+                    "curves and surfaces: left out");
     const bool library = take_word(&obj->at, "mtllib"), material = take_word(&obj->at, "usemtl");
     if (!library && !material && !take_word(&obj->at, "o") && !take_word(&obj->at, "g"))
         return true;
@@ -377,41 +367,45 @@ static bool read_lines(Obj *obj)
     return end_mesh(obj);
 }
 
-static bool read_bytes(const char *path, char *bytes, SceneFile *file, Message *reason)
+static bool obj_read(char *bytes, int folder, SceneFile *file, Message *reason)
 {
-    const char *slash = strrchr(path, '/');
-    char *folder = slash ? memory_format("%.*s", (int)(slash + 1 - path), path) : memory_text(".");
     Obj obj = {.file = file,
                .reason = reason,
-               .folder = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC),
+               .folder = folder,
                .at = bytes + (strncmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0)}; /* UTF-8 */
     for (char *end = strchr(bytes, '\n') ? NULL : strchr(bytes, '\r'); end; end = strchr(end, '\r'))
         *end = '\n'; /* lines of old Macintoshes */
     const bool done = read_lines(&obj);
     for (int i = 0; i < obj.paint_count; i++)
         free(obj.paints[i].name);
-    void *const all[] = {obj.positions.all, obj.colors.all, obj.normals.all, obj.first, obj.corners,
-                         obj.indices,       obj.polygon,    obj.paints,      folder};
+    void *const all[] = {obj.positions.all, obj.colors.all,    obj.normals.all, obj.first,
+                         obj.corners,       obj.faces.corners, obj.polygon,     obj.paints};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         free(all[i]);
-    close(obj.folder);
     return done;
 }
 
 bool own_read(const char *path, SceneFile *file, bool *other, Message *reason)
 {
-    const char *dot = strrchr(path, '.');
+    const char *dot = strrchr(path, '.'), *slash = strrchr(path, '/');
+    const bool ply = dot && strcasecmp(dot, ".ply") == 0;
     bool read = false;
     *other = true;
 #ifdef HAVE_JANSSON /* without it Assimp reads glTF 2.0, too */
     read = gltf_read(path, file, other, reason);
 #endif
-    if (*other && dot && strcasecmp(dot, ".obj") == 0) {
+    if (*other && dot && (ply || strcasecmp(dot, ".obj") == 0)) {
         size_t size;
+        char *name =
+            slash ? memory_format("%.*s", (int)(slash + 1 - path), path) : memory_text(".");
         char *bytes = input_whole(path, &size, reason);
+        const int folder = open(name, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
         *other = false;
-        read = bytes && read_bytes(path, bytes, file, reason);
+        read = bytes && (ply ? ply_read(bytes, size, folder, file, reason)
+                             : obj_read(bytes, folder, file, reason));
+        close(folder);
         free(bytes);
+        free(name);
     }
     file->turns = read;
     return read;

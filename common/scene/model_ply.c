@@ -1,172 +1,292 @@
 /*
- * Whether a PLY file ends where its header says. Assimp draws what there is of one that was cut,
- * for example by a download that broke off.
- *
- * The header names elements, each with a number of rows and with properties: a number each, or a
- * list, which begins with its length. So the end of a row is known only by reading the lists'
- * lengths: one pass over the file's words or bytes. Of 500,000 triangles it takes 4% of Assimp's
- * time in bytes, and a quarter in words. (Greg Turk, "The PLY Polygon File Format", 1994.)
+ * PLY files: a header names elements, each with a number of rows and with properties, a number or a
+ * list of numbers each, in words or in bytes. Of vertices places, normals and colours are read, of
+ * faces their corners; all else is skipped, number by number, for the end of a row is known only
+ * from its lists' lengths. (Greg Turk, The PLY polygon file format, 1994.)
  */
-#include "scene/assimp_files.h"
+#include "base/memory.h"
+#include "core/mesh_make.h"
+#include "scene/model_module.h"
+#include "scene/polygon.h"
+#include "scene/texture_mean.h"
 
-#include <ctype.h>
-#include <fcntl.h>
-#include <stdint.h>
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
-enum { PROPERTIES_MAX = 64, LINE_SIZE = 256 };
+typedef struct Type {
+    int bytes; /* 0: none */
+    bool real, negative;
+} Type;
+
+/* What a number is: of a vertex its position, normal or color, 0 to 8. */
+enum { COLORS = 6, ROLES = 9, CORNERS = ROLES, SKIPPED };
+
+static const uint32_t NO_VERTEX = UINT32_MAX;
+static const char PLAIN[] = " x y z nx ny nz red green blue ", BLANKS[] = " \t\r\n";
 
 typedef struct Property {
-    int length_bytes; /* of a list's length; 0: no list */
-    int bytes;        /* of a number */
+    Type length, type; /* of a list's length; of a number */
+    int role;
+    double scale;
 } Property;
-
-typedef struct Ply {
-    const char *next, *end;
-    bool words, big_endian;
-} Ply;
-
-static int type_bytes(const char *name)
-{
-    static const struct {
-        const char *names;
-        int bytes;
-    } types[] = {{" char uchar int8 uint8 ", 1},
-                 {" short ushort int16 uint16 ", 2},
-                 {" int uint float int32 uint32 float32 ", 4},
-                 {" double float64 ", 8}};
-    char word[34];
-    snprintf(word, sizeof word, " %.31s ", name);
-    for (size_t i = 0; i < sizeof types / sizeof types[0]; i++)
-        if (strstr(types[i].names, word))
-            return types[i].bytes;
-    return 0;
-}
-
-static bool next_line(Ply *ply, char line[LINE_SIZE])
-{
-    const char *end = memchr(ply->next, '\n', (size_t)(ply->end - ply->next));
-    if (!end)
-        return false;
-    snprintf(line, LINE_SIZE, "%.*s", (int)(end - ply->next), ply->next);
-    ply->next = end + 1;
-    return true;
-}
-
-/* Skips numbers, the first of which, not negative, is stored unless `first` is NULL. */
-static bool skip(Ply *ply, size_t count, int bytes, size_t *first)
-{
-    const size_t left = (size_t)(ply->end - ply->next);
-    size_t value = 0;
-    if (!ply->words) {
-        if (count > left / (size_t)bytes)
-            return false;
-        for (int i = 0; first && i < bytes; i++)
-            value = value << 8 | (uint8_t)ply->next[ply->big_endian ? i : bytes - 1 - i];
-        ply->next += count * (size_t)bytes;
-    }
-    for (size_t i = 0; ply->words && i < count; i++) {
-        while (ply->next < ply->end && isspace((unsigned char)*ply->next))
-            ply->next++;
-        if (ply->next == ply->end)
-            return false;
-        for (; ply->next < ply->end && !isspace((unsigned char)*ply->next); ply->next++)
-            value = isdigit((unsigned char)*ply->next) ? 10 * value + (size_t)(*ply->next - '0')
-                                                       : value;
-    }
-    if (first)
-        *first = value;
-    return true;
-}
-
-static bool skip_row(Ply *ply, const Property *properties, int count)
-{
-    for (int i = 0; i < count; i++) {
-        size_t length = 1;
-        if (properties[i].length_bytes && !skip(ply, 1, properties[i].length_bytes, &length))
-            return false;
-        if (!skip(ply, length, properties[i].bytes, NULL))
-            return false;
-    }
-    return true;
-}
 
 typedef struct Element {
     char name[32];
     size_t rows;
-    Property properties[PROPERTIES_MAX];
-    int count;
+    int first, count; /* properties */
 } Element;
 
-enum { ELEMENTS_MAX = 16 };
+typedef struct Ply {
+    SceneFile *file;
+    Message *reason;
+    int folder;
+    const char *next, *end;
+    bool words, big_endian;
+    Element *elements;
+    Property *properties;
+    int element_count, element_room, property_count, property_room;
+    double values[SKIPPED + 1]; /* of a row, by their roles */
+    uint32_t *corners;
+    int corner_count, corner_room;
+    Mesh *mesh; /* NULL: none yet */
+    TriangleList triangles;
+    Vec3 mean; /* color of the texture */
+} Ply;
 
-/* The elements of the header; 0 where it is not as in the paper: Assimp may still read it. */
-static int read_header(Ply *ply, Element elements[ELEMENTS_MAX])
+/* The words of `all` before this one; -1: it is not there. */
+static int place_in(const char *all, const char *name)
 {
-    char line[LINE_SIZE], first[32], second[32], word[32];
+    char word[34];
     int count = 0;
-    if (!next_line(ply, line) || strncmp(line, "ply", 3) != 0)
-        return 0;
-    while (next_line(ply, line) && strncmp(line, "end_header", 10) != 0) {
-        Element *last = count ? &elements[count - 1] : NULL;
-        const bool room = last && last->count < PROPERTIES_MAX;
-        if (sscanf(line, "format %31s", word) == 1) {
-            ply->words = strcmp(word, "ascii") == 0;
-            ply->big_endian = strcmp(word, "binary_big_endian") == 0;
-        } else if (strncmp(line, "property ", 9) == 0 && !room) {
-            return 0;
-        } else if (sscanf(line, "property list %31s %31s", first, second) == 2) {
-            last->properties[last->count++] = (Property){type_bytes(first), type_bytes(second)};
-        } else if (sscanf(line, "property %31s", first) == 1) {
-            last->properties[last->count++] = (Property){.bytes = type_bytes(first)};
-        } else if (strncmp(line, "element ", 8) == 0) {
-            Element element = {.count = 0};
-            if (count == ELEMENTS_MAX ||
-                sscanf(line, "element %31s %zu", element.name, &element.rows) != 2)
-                return 0;
-            elements[count++] = element;
-        }
-    }
-    for (int i = 0; i < count; i++)
-        for (int k = 0; k < elements[i].count; k++)
-            if (!elements[i].properties[k].bytes)
-                return 0;
-    return count;
+    snprintf(word, sizeof word, " %.31s ", name);
+    const char *found = strstr(all, word);
+    for (const char *c = all; found && c < found; c++)
+        count += *c == ' ';
+    return found ? count : -1;
 }
 
-static bool is_whole(Ply *ply, char *reason, size_t reason_size)
+static Type type_of(const char *name)
 {
-    Element elements[ELEMENTS_MAX];
-    const int count = read_header(ply, elements);
-    for (int i = 0; i < count; i++) {
-        for (size_t row = 0; row < elements[i].rows && elements[i].count > 0; row++)
-            if (!skip_row(ply, elements[i].properties, elements[i].count)) {
-                snprintf(reason, reason_size, "the file ends within %s %zu of %zu",
-                         elements[i].name, row + 1, elements[i].rows);
-                return false;
-            }
+    const int old = place_in(" char uchar short ushort int uint float double ", name);
+    const int new = place_in(" int8 uint8 int16 uint16 int32 uint32 float32 float64 ", name);
+    const int place = old >= 0 ? old : new;
+    return (Type){place < 0 ? 0 : place == 6 ? 4 : 1 << place / 2, place >= 6, place % 2 == 0};
+}
+
+/* The header */
+
+/* What is not known is skipped, as long as it is known how long it is. */
+static bool read_header_line(Ply *ply, const char *line)
+{
+    Element element = {.first = ply->property_count};
+    char word[256], length[32] = "", type[32];
+    if (sscanf(line, "format %255s", word) == 1) {
+        ply->words = strcmp(word, "ascii") == 0;
+        ply->big_endian = strcmp(word, "binary_big_endian") == 0;
+    } else if (sscanf(line, "comment TextureFile %255[^\r]", word) == 1) {
+        ply->mean = own_mean(ply->file, ply->folder, word);
+        scene_file_note(ply->file, true, NOTE_MEAN);
+    } else if (sscanf(line, "element %31s %zu", element.name, &element.rows) == 2) {
+        *(Element *)memory_add(&ply->elements, &ply->element_count, &ply->element_room,
+                               sizeof *ply->elements) = element;
+    } else if (sscanf(line, "property list %31s %31s %31s", length, type, word) == 3 ||
+               sscanf(line, "property %31s %31s", type, word) == 2) {
+        const bool list = length[0];
+        const char *name = strncmp(word, "diffuse_", 8) == 0 ? word + 8 : word;
+        const int role = place_in(list ? " vertex_index vertex_indices " : PLAIN, name);
+        Property made = {type_of(length), type_of(type),
+                         role < 0 ? SKIPPED
+                         : list   ? CORNERS
+                                  : role,
+                         1};
+        if (made.role >= COLORS && !made.type.real) /* of the largest integer */
+            made.scale = 1 / (ldexp(1, 8 * made.type.bytes - made.type.negative) - 1);
+        *(Property *)memory_add(&ply->properties, &ply->property_count, &ply->property_room,
+                                sizeof *ply->properties) = made;
+        if (ply->element_count > 0)
+            ply->elements[ply->element_count - 1].count++;
+        return ply->element_count > 0 && made.type.bytes && (made.length.bytes || !list);
     }
     return true;
 }
 
-bool model_ply_is_whole(const char *path, char *reason, size_t reason_size)
+static bool read_header(Ply *ply)
 {
-    struct stat status;
-    const int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    bool whole = true;
-    if (file >= 0 && fstat(file, &status) == 0 && status.st_size > 0) {
-        const size_t size = (size_t)status.st_size;
-        const char *bytes = mmap(NULL, size, PROT_READ, MAP_PRIVATE, file, 0);
-        if (bytes != MAP_FAILED) {
-            whole = is_whole(&(Ply){.next = bytes, .end = bytes + size}, reason, reason_size);
-            munmap((void *)bytes, size);
-        }
+    char line[300] = "";
+    if (strncmp(ply->next, "ply", 3) != 0)
+        return message_set(ply->reason, "it is no PLY file");
+    for (int number = 1; strncmp(line, "end_header", 10) != 0; number++) {
+        const char *end = memchr(ply->next, '\n', (size_t)(ply->end - ply->next));
+        if (!end)
+            return message_set(ply->reason, "its header has no end");
+        snprintf(line, sizeof line, "%.*s", (int)(end - ply->next), ply->next);
+        ply->next = end + 1;
+        if (!read_header_line(ply, line))
+            return message_set(ply->reason, "line %d: %.60s", number, line);
     }
-    if (file >= 0)
-        close(file);
-    return whole;
+    return true;
+}
+
+/* Rows */
+
+static bool take(Ply *ply, Type type, double *number)
+{
+    const int bytes = type.bytes, rest = 64 - 8 * bytes;
+    uint64_t bits = 0;
+    if (ply->words) {
+        char *end;
+        *number = strtod(ply->next, &end);
+        const bool found = end != ply->next;
+        ply->next = end;
+        return found;
+    }
+    if (ply->end - ply->next < bytes)
+        return false;
+    for (int i = 0; i < bytes; i++)
+        bits = bits << 8 | (uint8_t)ply->next[ply->big_endian ? i : bytes - 1 - i];
+    ply->next += bytes;
+    if (type.real && bytes == 4) {
+        const uint32_t low = (uint32_t)bits;
+        float value;
+        memcpy(&value, &low, sizeof value);
+        *number = (double)value;
+    } else if (type.real) {
+        memcpy(number, &bits, sizeof *number);
+    } else {
+        *number = type.negative ? (double)((int64_t)(bits << rest) >> rest) : (double)bits;
+    }
+    return true;
+}
+
+/* The numbers of a row by their roles, and its corners. */
+static bool take_row(Ply *ply, const Element *element)
+{
+    ply->corner_count = 0;
+    for (int i = 0; i < element->count; i++) {
+        const Property *property = &ply->properties[element->first + i];
+        double length = 1, number = 0;
+        if (property->length.bytes && !take(ply, property->length, &length))
+            return false;
+        for (double k = 0; k < length; k++) {
+            if (!take(ply, property->type, &number))
+                return false;
+            if (property->role == CORNERS)
+                *(uint32_t *)memory_add(&ply->corners, &ply->corner_count, &ply->corner_room,
+                                        sizeof *ply->corners) =
+                    number >= 0 && number < NO_VERTEX ? (uint32_t)number : NO_VERTEX;
+        }
+        ply->values[property->role] = number * property->scale;
+    }
+    return true;
+}
+
+/* Elements */
+
+static void set_vertex(const Ply *ply, size_t row)
+{
+    const double *v = ply->values;
+    vec3_to_float((Vec3){v[0], v[1], v[2]}, ply->mesh->vertices[row].position);
+    vec3_to_float((Vec3){v[3], v[4], v[5]}, ply->mesh->vertices[row].normal);
+    if (ply->mesh->colors)
+        vec3_to_float(color_product(color_within_one((Vec3){v[6], v[7], v[8]}), ply->mean),
+                      ply->mesh->colors[row]);
+}
+
+static Vec3 place_of(const void *mesh, uint32_t vertex)
+{
+    return vec3_from_float(((const Mesh *)mesh)->vertices[vertex].position);
+}
+
+/* The corners of a face, or of strips: each after two others; NO_VERTEX ends a strip. */
+static bool add_faces(Ply *ply, bool strips)
+{
+    const size_t vertices = ply->mesh ? ply->mesh->vertex_count : 0;
+    int first = 0;
+    for (int i = 0; i < ply->corner_count; i++) {
+        const bool ends = strips && ply->corners[i] == NO_VERTEX;
+        if (!ends && ply->corners[i] >= vertices)
+            return message_set(ply->reason, "a face names a vertex that is none of the %zu before",
+                               vertices);
+        first = ends ? i + 1 : first;
+        const uint32_t *last = &ply->corners[i];
+        const int odd = (i - first) % 2;
+        if (strips && i - first >= 2)
+            polygon_add(&ply->triangles, (uint32_t[]){last[odd - 2], last[-1 - odd], *last}, 3,
+                        place_of, NULL);
+    }
+    if (!strips && ply->corner_count < 3)
+        scene_file_note(ply->file, true, NOTE_LINES);
+    else if (!strips)
+        polygon_add(&ply->triangles, ply->corners, ply->corner_count, place_of, ply->mesh);
+    return scene_file_fits(vertices, (size_t)ply->triangles.count, ply->reason);
+}
+
+/* An object of both sides, for a file does not say which is in front. */
+static bool open_mesh(Ply *ply, const Element *element)
+{
+    const Vec3 black = {0, 0, 0};
+    const Material material = {ply->mean, ply->mean, black, black, 1, 0};
+    bool colored = false;
+    for (int i = 0; i < element->count; i++)
+        colored |= ply->properties[element->first + i].role == COLORS;
+    *(FileNode *)scene_file_add(ply->file, FILE_NODES, NULL) =
+        (FileNode){.parent = -1, .parent_from_node = mat4_identity()};
+    ((FileObject *)scene_file_add(ply->file, FILE_OBJECTS, NULL))->object =
+        (Object){.front = material, .back = material, .two_sided = true};
+    memset(ply->values, 0, sizeof ply->values);
+    ply->mesh = scene_file_add(ply->file, FILE_MESHES, ply->reason);
+    return scene_file_fits(element->rows, 0, ply->reason) &&
+           mesh_open(ply->mesh, element->rows, 1, ply->reason) &&
+           (!colored || mesh_open_colors(ply->mesh, ply->reason));
+}
+
+static bool read_element(Ply *ply, const Element *element)
+{
+    const bool vertices = strcmp(element->name, "vertex") == 0 && !ply->mesh;
+    const bool strips = strcmp(element->name, "tristrips") == 0;
+    const bool faces = strips || strcmp(element->name, "face") == 0;
+    if (vertices && !open_mesh(ply, element))
+        return false;
+    for (size_t row = 0; row < element->rows && element->count > 0; row++) {
+        if (!take_row(ply, element)) {
+            const char *word = ply->next + strspn(ply->next, BLANKS);
+            const bool cut = !ply->words || word + strcspn(word, BLANKS) >= ply->end;
+            return message_set(ply->reason, "%s within %s %zu of %zu",
+                               cut ? "the file ends" : "there is no number", element->name, row + 1,
+                               element->rows);
+        }
+        if (vertices)
+            set_vertex(ply, row);
+        else if (faces && !add_faces(ply, strips))
+            return false;
+    }
+    return true;
+}
+
+bool ply_read(const char *bytes, size_t size, int folder, SceneFile *file, Message *reason)
+{
+    Ply ply = {.file = file,
+               .reason = reason,
+               .folder = folder,
+               .next = bytes,
+               .end = bytes + size,
+               .mean = {1, 1, 1}};
+    bool done = read_header(&ply);
+    for (int i = 0; i < ply.element_count && done; i++)
+        done = read_element(&ply, &ply.elements[i]);
+    if (done && ply.triangles.count == 0)
+        done = message_set(reason, "it has no faces");
+    if (done) {
+        free(ply.mesh->indices);
+        ply.mesh->indices = ply.triangles.corners;
+        ply.mesh->index_count = (size_t)ply.triangles.count;
+        ply.triangles.corners = NULL;
+    }
+    free(ply.elements);
+    free(ply.properties);
+    free(ply.corners);
+    free(ply.triangles.corners);
+    return done;
 }

@@ -10,7 +10,6 @@
 #include "base/memory.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 
 enum { GONE = -1 };
@@ -191,7 +190,7 @@ static void cut_off(Cut *cut, int i, int round)
 
 /* In rounds: a corner whose neighbour was cut is tried in the next one, so that triangles are not
  * slivers from one corner. */
-void polygon_cut(const Vec3 *corners, int count, int *triangles)
+static void polygon_cut(const Vec3 *corners, int count, int *triangles)
 {
     Cut cut = {.count = count, .left = count, .triangles = triangles};
     int *lists = memory_new(2 * (size_t)count, sizeof *lists), *now = lists, now_count = count;
@@ -225,4 +224,23 @@ void polygon_cut(const Vec3 *corners, int count, int *triangles)
     free(lists);
     free(cut.corners);
     free(cut.boxes);
+}
+
+void polygon_add(TriangleList *list, const uint32_t *vertices, int count, PolygonPlace *place,
+                 const void *of)
+{
+    int only[3] = {0, 1, 2}, *triangles = only;
+    if (count > 3) {
+        Vec3 *places = memory_new((size_t)count, sizeof *places);
+        triangles = memory_new(3 * (size_t)count, sizeof *triangles);
+        for (int i = 0; i < count; i++)
+            places[i] = place(of, vertices[i]);
+        polygon_cut(places, count, triangles);
+        free(places);
+    }
+    for (int i = 0; i < 3 * (count - 2); i++)
+        *(uint32_t *)memory_add(&list->corners, &list->count, &list->room, sizeof *list->corners) =
+            vertices[triangles[i]];
+    if (triangles != only)
+        free(triangles);
 }

@@ -2,7 +2,7 @@
  * Lists that grow, where nodes are at a time, and whether a mesh is closed.
  *
  * A mesh is closed and consistently turned where its boundary is nothing: each edge is passed as
- * often in one direction as in the other. With a random number for each pair of corners, added for
+ * often in one direction as in the other. With a random number for each pair of places, added for
  * one direction and subtracted for the other, the sum is 0 then, and otherwise only by a chance of
  * 1 in 2^64: no table of edges is needed. (Carter and Wegman, Universal classes of hash functions,
  * 1979.) Connected parts are found by union and find with path halving (Tarjan and van Leeuwen,
@@ -75,15 +75,15 @@ bool scene_file_fits(size_t vertices, size_t indices, Message *reason)
                        vertices, indices / 3, MODEL_VERTICES_MAX, MODEL_TRIANGLES_MAX);
 }
 
-void scene_file_note(SceneFile *file, const char *text)
+void scene_file_note(SceneFile *file, bool occurs, const char *text)
 {
     FileNote *note = file->notes;
-    for (int i = 0; i < file->note_count; i++, note++)
+    for (int i = 0; i < file->note_count && occurs; i++, note++)
         if (strcmp(note->text, text) == 0) {
             note->count++;
             return;
         }
-    if (!(note = scene_file_add(file, FILE_NOTES, NULL)))
+    if (!occurs || !(note = scene_file_add(file, FILE_NOTES, NULL)))
         return;
     snprintf(note->text, sizeof note->text, "%s", text);
     note->count = 1;
@@ -241,9 +241,9 @@ static uint32_t root_of(uint32_t *parents, uint32_t i)
     return i;
 }
 
-static uint64_t edge(uint32_t a, uint32_t b)
+static uint64_t edge(uint64_t a, uint64_t b)
 {
-    Random ends = {a < b ? (uint64_t)a << 32 | b : (uint64_t)b << 32 | a};
+    Random ends = {a < b ? (a << 1 | a >> 63) ^ b : (b << 1 | b >> 63) ^ a};
     const uint64_t number = random_bits(&ends);
     return a < b ? number : -number;
 }
@@ -275,19 +275,21 @@ static bool have_volume(const Mesh *mesh, const uint32_t *ids, uint32_t *parents
 
 bool scene_file_is_closed(const Mesh *mesh)
 {
-    uint64_t sum = 0;
-    uint32_t *ids = calloc(2 * mesh->vertex_count + 1, sizeof *ids);
-    if (!ids || mesh->index_count == 0 || !mesh_weld(mesh, false, ids)) {
-        free(ids);
-        return false;
-    }
-    for (size_t i = 0; i < mesh->index_count; i += 3) {
-        const uint32_t a = ids[mesh->indices[i]], b = ids[mesh->indices[i + 1]];
-        const uint32_t c = ids[mesh->indices[i + 2]];
+    uint64_t sum = 0, *places = calloc(mesh->vertex_count + 1, sizeof *places);
+    for (size_t i = 0; i < mesh->vertex_count && places; i++)
+        places[i] = mesh_hash(&mesh->vertices[i], false);
+    for (size_t i = 0; i < mesh->index_count && places; i += 3) {
+        const uint64_t a = places[mesh->indices[i]], b = places[mesh->indices[i + 1]];
+        const uint64_t c = places[mesh->indices[i + 2]];
         sum += edge(a, b) + edge(b, c) + edge(c, a);
     }
-    double *volumes = sum ? NULL : calloc(mesh->vertex_count, sizeof *volumes);
-    const bool closed = volumes && have_volume(mesh, ids, ids + mesh->vertex_count, volumes);
+    free(places);
+    if (!places || sum || mesh->index_count == 0)
+        return false;
+    uint32_t *ids = calloc(2 * mesh->vertex_count + 1, sizeof *ids);
+    double *volumes = calloc(mesh->vertex_count, sizeof *volumes);
+    const bool closed = ids && volumes && mesh_weld(mesh, false, ids) &&
+                        have_volume(mesh, ids, ids + mesh->vertex_count, volumes);
     free(volumes);
     free(ids);
     return closed;

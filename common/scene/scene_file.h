@@ -1,7 +1,7 @@
 /*
  * scene_file: what a file of a scene holds: nodes, meshes, materials, lights, cameras. No GL.
  *
- * glTF 2.0 is read by scene/gltf.c, all other formats by Assimp, both in the plugin and in a child
+ * glTF 2.0, OBJ and PLY are read by us, all other formats by Assimp, in the plugin and in a child
  * process with limited time and memory, because damaged files can make a reader loop or crash.
  */
 #ifndef SCENE_FILE_H
@@ -134,7 +134,7 @@ typedef struct FileListPlace {
 FileListPlace scene_file_list(SceneFile *file, FileList list);
 
 /* Counts one more of what is not drawn. */
-void scene_file_note(SceneFile *file, const char *text);
+void scene_file_note(SceneFile *file, bool occurs, const char *text);
 #define NOTE_MEAN "textures of the base colour: their mean colour"
 #define NOTE_TEXTURES "textures of all but the base colour: left out"
 #define NOTE_TRANSPARENT "transparency: drawn opaque"
@@ -158,6 +158,9 @@ double scene_file_spot_exponent(double inner, double outer);
 /* Whether all of a mesh is its outside: its triangles' edges come in pairs of opposite directions,
  * and each connected part holds a volume. */
 bool scene_file_is_closed(const Mesh *mesh);
+
+/* Leaves triangles with an area; normals are of length 1, or 0. */
+void scene_file_tidy(Mesh *mesh);
 
 /* NULL or zeroed is fine. */
 void scene_file_close(SceneFile *file);

@@ -280,16 +280,12 @@ static bool check_numbers(const char *path, const SceneFile *file, Message *mess
     return true;
 }
 
-/* Leaves triangles with an area; normals are of length 1, or 0. */
-static void tidy(Mesh *mesh)
+void scene_file_tidy(Mesh *mesh)
 {
     size_t kept = 0;
-    for (size_t i = 0; i < mesh->index_count / 3; i++) {
-        Vec3 normal;
-        if (!mesh_face(mesh, i, &normal))
-            continue;
-        memmove(&mesh->indices[3 * kept++], &mesh->indices[3 * i], 3 * sizeof *mesh->indices);
-    }
+    for (size_t i = 0; i < mesh->index_count / 3; i++)
+        if (mesh_face(mesh, i, NULL))
+            memmove(&mesh->indices[3 * kept++], &mesh->indices[3 * i], 3 * sizeof *mesh->indices);
     mesh->index_count = 3 * kept;
     for (size_t i = 0; i < mesh->vertex_count; i++) {
         float *normal = mesh->vertices[i].normal;
@@ -315,7 +311,7 @@ bool scene_file_read(const char *path, ModelUp up, SceneFile *file, Message *mes
     if (done && file->turns && file->node_count > 0 && up != MODEL_UP_FILE)
         file->nodes[0].parent_from_node = scene_file_upright((int)up - MODEL_UP_X, false);
     for (int i = 0; i < file->mesh_count && done; i++)
-        tidy(&file->meshes[i]);
+        scene_file_tidy(&file->meshes[i]);
     if (!done)
         scene_file_close(file);
     return done;

@@ -88,7 +88,7 @@ Vec3 texture_mean(SceneFile *file, const char *name, char *bytes, size_t size, c
         snprintf(text, sizeof text, "%.40s: white, for it cannot be read: %.45s", name,
                  reason.text);
         text[strcspn(text, "\n")] = '\0';
-        scene_file_note(file, text);
+        scene_file_note(file, true, text);
     }
     free(bytes);
     return file->scene.linear ? mean : (Vec3){encoded(mean.x), encoded(mean.y), encoded(mean.z)};

@@ -185,7 +185,7 @@ static bool half_open(Mesh *half, const Cage *cage, bool faceted, Message *messa
         for (size_t i = 0; i < 6; i++)
             half->indices[6 * q + i] = index[split[i]];
     }
-    return faceted || mesh_compute_normals(half, MESH_WEIGHT_ANGLE, message);
+    return faceted || mesh_compute_normals(half, MESH_WEIGHT_ANGLE, false, message);
 }
 
 /* Both halves. Without `faceted`, vertices in the mirror plane belong to both, and their normals

@@ -208,7 +208,7 @@ bool mesh_teapot_textbook(Mesh *mesh, double size, Message *message)
     bool done = mesh_weld(mesh, false, first);
     for (size_t i = 0; i < mesh->index_count; i++)
         mesh->indices[i] = first[mesh->indices[i]];
-    done = done && mesh_compute_normals(mesh, MESH_WEIGHT_ANGLE, message);
+    done = done && mesh_compute_normals(mesh, MESH_WEIGHT_ANGLE, false, message);
     for (size_t i = 0; i < mesh->vertex_count && done; i++)
         memcpy(mesh->vertices[i].normal, mesh->vertices[first[i]].normal,
                sizeof mesh->vertices->normal);

@@ -9,10 +9,10 @@ static bool read_file(const char *path, ModelUp up, SceneFile *file, Message *re
     bool other;
     (void)up;
     const bool read = own_read(path, file, &other, reason);
-    return !other
-               ? read
-               : message_set(reason, "a page reads .gltf, .glb and .obj; the command reads other "
-                                     "formats, too");
+    return !other ? read
+                  : message_set(reason,
+                                "a page reads .gltf, .glb, .obj and .ply; the command reads other "
+                                "formats, too");
 }
 
 static const ModelModule own = {.read = read_file};

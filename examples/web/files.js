@@ -3,7 +3,7 @@
  * then; a worker reads, within a time, and the page's own module checks what it answers, as natively the child process of a
  * reader. Nothing leaves the device. */
 const Files = (() => {
-    const READ = /\.(obj|gltf|glb)$/i;
+    const READ = /\.(obj|ply|gltf|glb)$/i;
     const part = id => document.getElementById(id);
     const option = document.body.dataset.program === "Scene" ? "file" : "model";
     let name = "", taken = null, worker = null, compiled = null;
@@ -75,7 +75,7 @@ const Files = (() => {
         const found = files.filter(file => READ.test(file.name)).sort((a, b) => a.name.split("/").length - b.name.split("/").length)[0];
         const shown = (found || files[0] || {name: "a file"}).name.replace(/\p{Cc}/gu, " ").slice(0, 100);
         if (!found)
-            throw shown + ": a page reads models of .obj, .gltf and .glb; the command reads other formats, too: examples/run " +
+            throw shown + ": a page reads models of .obj, .ply, .gltf and .glb; the command reads other formats, too: examples/run " +
                 document.body.dataset.program + (option === "file" ? " FILE" : " --model FILE");
         if (shown !== found.name)
             throw shown + ": rename it without control characters, shorter than 100 letters";

@@ -29,12 +29,13 @@ def glb(path, data, views, **members):
 
 
 def ball(columns, rows):
-    """Positions, which are normals, too; corners."""
+    """Positions, which are normals, too; corners. It is closed: what coincides at its seam and its poles is equal."""
     places, corners = array.array("f"), array.array("I")
     for j in range(rows + 1):
-        height, radius = math.cos(math.pi * j / rows), math.sin(math.pi * j / rows)
+        height, radius = math.cos(math.pi * j / rows), math.sin(math.pi * (j % rows) / rows)
         for i in range(columns + 1):
-            places.extend((radius * math.sin(2 * math.pi * i / columns), height, radius * math.cos(2 * math.pi * i / columns)))
+            angle = 2 * math.pi * (i % columns) / columns
+            places.extend((radius * math.sin(angle), height, radius * math.cos(angle)))
     for j in range(rows):
         for i in range(columns):
             a = j * (columns + 1) + i

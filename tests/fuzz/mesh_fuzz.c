@@ -92,7 +92,7 @@ static void check_any(const Mesh *mesh)
     mesh_close(&other);
     for (int weight = MESH_WEIGHT_ANGLE; weight <= MESH_WEIGHT_MAX; weight++) {
         require(mesh_copy(&other, mesh, NULL));
-        require(mesh_compute_normals(&other, (MeshWeight)weight, NULL));
+        require(mesh_compute_normals(&other, (MeshWeight)weight, false, NULL));
         for (size_t i = 0; i < other.vertex_count; i++)
             require(is_unit(other.vertices[i].normal) &&
                     memcmp(other.vertices[i].position, mesh->vertices[i].position,

@@ -351,7 +351,7 @@ static void make_sheet(Mesh *mesh, double bend)
         vec3_to_float((Vec3){x, y, -bend * (x * x + y * y)}, mesh->vertices[i].position);
     }
     mesh_grid(mesh->indices, 0, SIDE, SIDE, MESH_POLE_NONE);
-    require(mesh_compute_normals(mesh, MESH_WEIGHT_ANGLE, FAILURE), FAILURE);
+    require(mesh_compute_normals(mesh, MESH_WEIGHT_ANGLE, false, FAILURE), FAILURE);
 }
 
 static Vec3 random_color(double most)

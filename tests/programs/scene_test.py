@@ -382,6 +382,48 @@ class Scene(base.Case):
                     for mark, end in ((b"", b"\n"), (b"\xef\xbb\xbf", b"\n"), (b"", b"\r\n"), (b"", b"\r"))]
         self.assertEqual(pictures, pictures[:1] * 4)
 
+    @staticmethod
+    def ply(form, rows, faces, number="float", strips=False):
+        """Rows of a place and a color; in words, or in bytes of one order. Properties that nobody reads are in between."""
+        types = {"float": "f", "double": "d", "short": "h"}
+        element = "tristrips 1" if strips else f"face {len(faces)}"
+        text = (f"ply\r\nformat {form} 1.0\ncomment nothing\nelement camera 1\nproperty {number} nx\nproperty list uchar short x\n"
+                f"element vertex {len(rows)}\n" + "".join(f"property {number} {name}\n" for name in ("x", "weight", "y", "z")) +
+                "".join(f"property uchar {name}\n" for name in ("red", "green", "diffuse_blue")) +
+                f"element {element}\nproperty uchar flags\nproperty list int {'int' if strips else 'uint16'} vertex_index\nend_header\n").encode()
+        lists = [[n for face in faces for n in (*face, -1)][:-1]] if strips else faces
+        if form == "ascii":
+            lines = ["7 2 1 2"] + [f"{x} 9 {y} {z} {r} {g} {b}" for x, y, z, r, g, b in rows] + [" ".join(map(str, (8, len(face), *face))) for face in lists]
+            return text + "\n".join(lines).encode() + b"\n"
+        order, letter = ">" if "big" in form else "<", types[number]
+        return (text + struct.pack(f"{order}{letter}B2h", 7, 2, 1, 2) +
+                b"".join(struct.pack(f"{order}4{letter}3B", x, 9, y, z, r, g, b) for x, y, z, r, g, b in rows) +
+                b"".join(struct.pack(f"{order}Bi{len(face)}{'i' if strips else 'H'}", 8, len(face), *face) for face in lists))
+
+    def test_ply_in_words_and_bytes(self):
+        """Of the same mesh the same picture, which has its colours: a polygon with a notch, a quadrilateral and triangles, or strips."""
+        rows = [(0, 0, 0, 255, 0, 0), (4, 0, 0, 0, 255, 0), (4, 4, 0, 0, 0, 255), (2, 1, 0, 255, 255, 0), (0, 4, 0, 0, 255, 255), (0, 0, -3, 255, 0, 255)]
+        faces, triangles = [(0, 1, 2, 3, 4), (0, 4, 5), (0, 5, 1)], [(0, 1, 3), (1, 2, 3), (0, 3, 4), (0, 4, 5), (0, 5, 1)]
+        forms = [self.ply(form, rows, faces, number) for form in ("ascii", "binary_little_endian", "binary_big_endian") for number in ("float", "double", "short")]
+        forms += [self.ply(form, rows, triangles, strips=True) for form in ("ascii", "binary_little_endian")]
+        pictures = [self.drawn(self.save("a.ply", form), *base.SMALL, program="Scene").pixels for form in forms]
+        for number, picture in enumerate(pictures):
+            self.assertEqual(picture, pictures[0], number)
+        red = self.drawn(self.save("a.ply", self.ply("ascii", [(*row[:3], 255, 0, 0) for row in rows], faces)), *base.SMALL, program="Scene")
+        size = len(red.pixels) // (red.width * red.height)
+        self.assertGreater(max(red.pixels[::size]), 150)
+        self.assertLessEqual(max(red.pixels[1::size]), 51) # the background
+
+    def test_polygons_of_many_corners(self):
+        """A star of 30,001 corners is cut in PLY as in OBJ."""
+        count = 30001
+        corners = [(math.cos(a) * r, math.sin(a) * r) for i in range(count) for a, r in ((2 * math.pi * i / count, 1 + i % 2),)]
+        rows = [(x, y, 0, 255, 255, 255) for x, y in corners]
+        picture = self.drawn(self.save("a.ply", self.ply("binary_little_endian", rows, [range(count)])), *base.SMALL, program="Scene")
+        lines = "".join(f"v {x:.9g} {y:.9g} 0 1 1 1\n" for x, y in corners) + "mtllib a.mtl\nusemtl white\nf " + " ".join(map(str, range(1, count + 1)))
+        self.save("a.mtl", b"newmtl white\nKd 1 1 1\n")
+        self.assertEqual(picture.pixels, self.drawn(self.save("a.obj", lines.encode()), *base.SMALL, program="Scene").pixels)
+
     def bad_files(self):
         """Name, file, what its message says."""
         def changed(path, value):
@@ -441,6 +483,13 @@ class Scene(base.Case):
             del accessor["bufferView"]
         yield "a.gltf", packed, "compressed by Draco"
         yield "a.dae", b"<COLLADA>", "cannot read"
+        plain = (b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+                 b"property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+        yield "a.ply", plain.replace(b"0 1 0", b"0 x 0"), "there is no number within vertex 3 of 3"
+        yield "a.ply", plain[:-2], "the file ends within face 1 of 1"
+        yield "a.ply", plain.replace(b"float x", b"real x"), "line 4: property real x"
+        yield "a.ply", plain.replace(b"face 1", b"face 0"), "no faces"
+        yield "a.ply", plain.replace(b"end_header", b""), "no end"
         yield "a.obj", b"mtllib ../../../etc/passwd\n", "cannot read"
 
     @unittest.skipIf(base.SANITIZED, "a sanitizer has a heap of its own")

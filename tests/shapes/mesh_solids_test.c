@@ -630,7 +630,7 @@ TEST(angle_weights_do_not_depend_on_how_faces_are_triangulated)
                         mesh.indices[6 * face + i] = 4 * face + other[i];
             }
             weld(&mesh);
-            assert_true(mesh_compute_normals(&mesh, WEIGHTS[w], NULL));
+            assert_true(mesh_compute_normals(&mesh, WEIGHTS[w], false, NULL));
             for (size_t i = 0; i < mesh.index_count; i++) {
                 const MeshVertex *vertex = &mesh.vertices[mesh.indices[i]];
                 const Vec3 exact = vec3_scale(vec3_from_float(vertex->position), third);
@@ -675,7 +675,7 @@ TEST(max_weights_are_exact_on_any_triangulated_sphere)
         for (int w = 0; w < 3; w++) {
             CLOSED(mesh_close) Mesh mesh, truth;
             open_irregular_sphere(&mesh, &truth, divisions);
-            assert_true(mesh_compute_normals(&mesh, WEIGHTS[w], NULL));
+            assert_true(mesh_compute_normals(&mesh, WEIGHTS[w], false, NULL));
             worst[w] = worst_normal(&mesh, &truth);
         }
         print_message("%d divisions: off by %.3g (angle), %.3g (area), %.3g (Max)\n", divisions,
@@ -707,8 +707,8 @@ TEST(triangles_without_area_do_not_count)
         free(with.indices);
         with.indices = indices;
         with.index_count *= 4;
-        assert_true(mesh_compute_normals(&with, WEIGHTS[w], NULL));
-        assert_true(mesh_compute_normals(&without, WEIGHTS[w], NULL));
+        assert_true(mesh_compute_normals(&with, WEIGHTS[w], false, NULL));
+        assert_true(mesh_compute_normals(&without, WEIGHTS[w], false, NULL));
         assert_memory_equal(with.vertices, without.vertices,
                             with.vertex_count * sizeof *with.vertices);
     }
@@ -728,7 +728,7 @@ TEST(a_cancelled_normal_is_the_first_faces_and_an_unused_one_is_up)
         Mesh mesh = {.vertices = vertices, .indices = indices, .vertex_count = 5, .index_count = 9};
         Vec3 first;
         assert_true(mesh_face(&mesh, 0, &first));
-        assert_true(mesh_compute_normals(&mesh, WEIGHTS[w], NULL));
+        assert_true(mesh_compute_normals(&mesh, WEIGHTS[w], false, NULL));
         for (int i = 0; i < 3; i++)
             assert_true(topology_distance(vec3_from_float(vertices[i].normal), first) <=
                         2 * ROUNDED);
@@ -737,7 +737,7 @@ TEST(a_cancelled_normal_is_the_first_faces_and_an_unused_one_is_up)
         assert_false(mesh_face(&mesh, 2, &first));
         assert_true(vec3_length(first) == 0);
     }
-    assert_true(mesh_compute_normals(&(Mesh){.vertices = NULL}, MESH_WEIGHT_ANGLE, NULL));
+    assert_true(mesh_compute_normals(&(Mesh){.vertices = NULL}, MESH_WEIGHT_ANGLE, false, NULL));
 }
 
 TEST(normals_do_not_depend_on_the_size_of_a_mesh)
@@ -747,8 +747,8 @@ TEST(normals_do_not_depend_on_the_size_of_a_mesh)
     for (int w = 0; w < 3; w++) {
         for (int s = 0; s < 2; s++) {
             CLOSED(mesh_close) Mesh mesh = teapot(1, 5), scaled = teapot(sizes[s], 5);
-            assert_true(mesh_compute_normals(&mesh, WEIGHTS[w], NULL));
-            assert_true(mesh_compute_normals(&scaled, WEIGHTS[w], NULL));
+            assert_true(mesh_compute_normals(&mesh, WEIGHTS[w], false, NULL));
+            assert_true(mesh_compute_normals(&scaled, WEIGHTS[w], false, NULL));
             for (size_t i = 0; i < mesh.vertex_count; i++)
                 assert_memory_equal(mesh.vertices[i].normal, scaled.vertices[i].normal,
                                     sizeof mesh.vertices[i].normal);
@@ -768,7 +768,7 @@ TEST(out_of_memory_leaves_a_mesh_unchanged)
     assert_memory_equal(&mesh, &huge, sizeof mesh);
     assert_memory_equal(message.text, "mesh: not enough memory for ", 28);
     message = (Message){0};
-    assert_false(mesh_compute_normals(&mesh, MESH_WEIGHT_ANGLE, &message));
+    assert_false(mesh_compute_normals(&mesh, MESH_WEIGHT_ANGLE, false, &message));
     assert_memory_equal(&mesh, &huge, sizeof mesh);
     assert_memory_equal(message.text, "mesh: not enough memory for the normals of ", 43);
 }
