@@ -13,11 +13,11 @@
 typedef struct Place {
     double x, y;
 } Place;
-static const Place MIN = {115, 122}, MAX = {985, 435};
+static const Place MIN = {115, 122}, MAX = {985, 423};
 
 /* The pictures above it: where their captions and below them their settings are, and the boxes they
  * fit in. */
-static const double CAPTION = 500, SETTING = 479, SETTING_LINE = 17, STRIP = 515, STRIP_HEIGHT = 92;
+static const double CAPTION = 500, SETTING = 479, SETTING_LINE = 21, STRIP = 515, STRIP_HEIGHT = 92;
 
 /* Smaller errors are drawn here. */
 static const double FLOOR = 0.01;
@@ -269,7 +269,7 @@ bool report_pins(ReportPins *pins, const Results *results, const char *scene, Me
 /* A setting's choices, in lines as wide as its picture; how many of these there are. */
 static int set_setting(TemplateValues *page, const Quality *quality, double middle)
 {
-    enum { WIDTH = 22, MOST = 3 };
+    enum { WIDTH = 17, MOST = 3 };
     char setting[QUALITY_TEXT_SIZE];
     int count = 0;
     OutputText wrapped;
@@ -277,10 +277,13 @@ static int set_setting(TemplateValues *page, const Quality *quality, double midd
     quality_text(quality, setting);
     text_wrap(wrapped.file, setting, 0, 0, WIDTH);
     char *text = output_text_close(&wrapped);
-    for (char *line = strtok(text, "\n"); line && count < MOST; line = strtok(NULL, "\n")) {
+    for (char *line = strtok(text, "\n"), *next; line && count < MOST; line = next) {
         TemplateValues *values = template_add(page, "setting");
-        gnuplot_set(values, "text", line);
+        next = strtok(NULL, "\n");
+        char *shown = memory_format("%s%s", line, count == MOST - 1 && next ? " ..." : "");
+        gnuplot_set(values, "text", shown);
         set_screen(values, "x", "y", (Place){middle, SETTING - SETTING_LINE * count++});
+        free(shown);
     }
     free(text);
     return count;

@@ -24,7 +24,7 @@ set arrow from graph 0,first 0.5 to graph 1,first 0.5 nohead back lw 1 dt 2 lc r
 set label 'rounding to 8 bits' at screen {{rounding}},first 0.5 left offset 0,0.5 textcolor rgb '#666666'
 {{/rounding}}
 {{#setting}}
-set label {{&text}} at screen {{x}},{{y}} center front font ',14' textcolor rgb '#444444'
+set label {{&text}} at screen {{x}},{{y}} center front textcolor rgb '#444444'
 {{/setting}}
 {{#pin}}
 set label {{&caption}} at screen {{x0}},{{y}} center front
