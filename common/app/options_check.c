@@ -6,6 +6,7 @@
 #include "images/animation.h"
 
 #include <string.h>
+#include <strings.h>
 #include <unistd.h>
 
 static const char *const VECTORS[] = {"svg", "pdf"};
@@ -127,6 +128,14 @@ static bool check_parts(const Options *options, Message *message)
                                 "parts, as in -n 90 -o turn.gif");
 }
 
+/* Any other name would be read as another format. */
+static bool check_saved(const char *path, Message *message)
+{
+    const char *dot = path ? strrchr(path, '.') : NULL;
+    return !dot || strchr(dot, '/') || strcasecmp(dot, ".gltf") == 0 ||
+           message_set(message, "--save-scene %s: a scene is written as text; name a .gltf", path);
+}
+
 bool options_check(Options *options, const Usage *usage, Message *message)
 {
     const bool window = options_in_window(options), stream = strcmp(options->output, "-") == 0;
@@ -140,6 +149,8 @@ bool options_check(Options *options, const Usage *usage, Message *message)
                            usage->study ? "DIR names the folder" : "FILE names the picture");
     if (options->part.count && options->merge)
         return message_set(message, "--part and --merge: one of them");
+    if (!check_saved(options->save_scene, message))
+        return false;
     if (options->doctor)
         return true;
     if (options->shaders.print || options->explain)

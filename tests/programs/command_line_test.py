@@ -658,6 +658,7 @@ class Generated(Case):
         self.assertEqual(exact, longer)
         self.assertNotEqual(exact, neither)
         self.refused(2, "--lin: could be --linear-light or --linear", "--lin", program="LightTypes")
+        self.refused(2, "^SpotLight: --save-scene x.glb: a scene is written as text; name a .gltf$", "--save-scene", "x.glb", program="SpotLight")
 
     def test_all_have_the_options_of_help(self):
         for program in EVERY:
