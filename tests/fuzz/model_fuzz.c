@@ -1,8 +1,9 @@
 /*
- * gltf_fuzz: no file of glTF 2.0 may do harm: what is read of it refers to what is there.
+ * model_fuzz: no file that our own readers read may do harm: what is read of it refers to what is
+ * there.
  *
- * The input is the file: .glb if it begins as one, else .gltf. It is read in this process, as the
- * reader's child would.
+ * The input is the file: .ply, .glb or .gltf if it begins as one, else .obj. It is read in this
+ * process, as the reader's child would.
  */
 #include "fuzz/fuzz.h"
 #include "scene/model_module.h"
@@ -13,7 +14,7 @@
 #include <string.h>
 #include <unistd.h>
 
-static char folder[] = "/tmp/gltf_fuzz-XXXXXX";
+static char folder[] = "/tmp/model_fuzz-XXXXXX";
 
 static void remove_folder(void)
 {
@@ -49,6 +50,14 @@ static void check_file(const SceneFile *file)
     free(poses);
 }
 
+static const char *ending_of(const uint8_t *data, size_t size)
+{
+    return size >= 3 && memcmp(data, "ply", 3) == 0    ? "ply"
+           : size >= 4 && memcmp(data, "glTF", 4) == 0 ? "glb"
+           : size >= 1 && data[0] == '{'               ? "gltf"
+                                                       : "obj";
+}
+
 FUZZ(data, size)
 {
     SceneFile file = {.photometric = false};
@@ -59,10 +68,9 @@ FUZZ(data, size)
         require(mkdtemp(folder) != NULL);
         atexit(remove_folder);
     }
-    snprintf(path, sizeof path, "%s/a.%s", folder,
-             size >= 4 && memcmp(data, "glTF", 4) == 0 ? "glb" : "gltf");
+    snprintf(path, sizeof path, "%s/a.%s", folder, ending_of(data, size));
     write_file(path, data, size);
-    const bool read = gltf_read(path, &file, &other, &reason);
+    const bool read = own_read(path, &file, &other, &reason);
     require(read ? !reason.text[0] : other || reason.text[0]);
     if (read)
         check_file(&file);
