@@ -41,7 +41,7 @@ typedef struct Obj {
     const char *at;
     Vectors positions, colors, normals; /* a color of each position, if one has any */
     bool colored;
-    int *first; /* vertex of the mesh at each position; -1: none */
+    int *first, first_count, first_room; /* vertex of the mesh at each position; -1: none */
     Corner *corners;
     uint32_t *polygon;
     TriangleList faces;
@@ -308,8 +308,7 @@ static bool read_vector(Obj *obj, Vectors *list)
     memcpy(memory_add(&obj->colors.all, &obj->colors.count, &obj->colors.room,
                       sizeof *obj->colors.all),
            v + (count > 6 ? 4 : 3), sizeof *obj->colors.all);
-    obj->first = memory_grow(obj->first, (size_t)list->room, sizeof *obj->first);
-    obj->first[list->count - 1] = -1;
+    *(int *)memory_add(&obj->first, &obj->first_count, &obj->first_room, sizeof *obj->first) = -1;
     return true;
 }
 
