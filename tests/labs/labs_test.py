@@ -299,6 +299,10 @@ class Wrong(Labs):
               "1.0 / (u_Attenuation.x + u_Attenuation.y * d + u_Attenuation.z * d * d);\n    v_Color ="),
              ("frag", "void main() {", "varying float v_Fade;\nvoid main() {"),
              ("frag", "attenuation * spot", "v_Fade * spot")),
+            # What a variable without a first value holds is the driver's: added to it, it begins with 0.
+            (5, "= for +=: sum", ("frag", loop, "    vec3 sum;\n" + loop),
+             ("frag", "light += u_LightColor[i] * nDotL;", "vec3 one = u_LightColor[i] * nDotL;\n        sum = one;"),
+             ("frag", "vec4(light *", "vec4((light + sum) *")),
             (6, "vec3(0.0, 0.0, 5.0) for u_EyePosition", ("frag", "uniform vec3 u_EyePosition; // world space", ""),
              ("frag", view, "normalize(vec3(0.0, 0.0, 5.0) - v_Position)")),
         )  # fmt: skip
