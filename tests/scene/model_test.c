@@ -686,6 +686,14 @@ TEST(damaged_files_are_harmless)
     assert_memory_equal(&after, &before, sizeof after);
 }
 
+/* The header never ends: Assimp 5.2, which takes it for PLY by its first line, searches for its end
+ * without a limit. */
+TEST(a_file_that_never_ends_times_out)
+{
+    assert_refused("endless.model",
+                   text("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"), "");
+}
+
 TEST(a_missing_plugin_names_its_package)
 {
     Plugin none = {"no_such_module.so", "variable", "Nothing", "", "libnothing-dev", NULL};
