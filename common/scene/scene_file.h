@@ -133,7 +133,7 @@ typedef struct FileListPlace {
 } FileListPlace;
 FileListPlace scene_file_list(SceneFile *file, FileList list);
 
-/* Counts one more of what is not drawn. */
+/* Counts one more of what is not drawn, if it occurs. */
 void scene_file_note(SceneFile *file, bool occurs, const char *text);
 #define NOTE_MEAN "textures of the base colour: their mean colour"
 #define NOTE_TEXTURES "textures of all but the base colour: left out"

@@ -93,7 +93,7 @@ effect that calls for a line.</small></p>
 # See files.js.
 FILES = """<section aria-labelledby="files-heading">
 <h2 id="files-heading">%s</h2>
-<div class="row"><button type="button" id="choose-file">Choose OBJ or glTF</button></div>
+<div class="row"><button type="button" id="choose-file">Choose OBJ, PLY or glTF</button></div>
 <input type="file" id="file" multiple accept=".obj,.mtl,.ply,.gltf,.glb,.bin,.png,.jpg,.jpeg,.bmp,.tga" aria-label="Files of the model" hidden>
 <p><small>Or drop it on the page: a file, all files of a model, or their folder. What reads it is loaded then, %.0f kB, once.
 The command reads other formats, too.</small></p>
