@@ -92,10 +92,12 @@ static int by_code(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The bits of both, by turns. (Morton, A computer oriented geodetic data base, 1966) */
+/* The bits of both, by turns (Morton, A computer oriented geodetic data base, 1966). Within 0 to 1;
+ * NaN, of corners that are refused later, is 0. */
 static uint64_t curve(double x, double y)
 {
-    const uint64_t a = (uint64_t)(x * 4294967295.0), b = (uint64_t)(y * 4294967295.0);
+    const uint64_t a = (uint64_t)(fmin(fmax(x, 0), 1) * 4294967295.0),
+                   b = (uint64_t)(fmin(fmax(y, 0), 1) * 4294967295.0);
     uint64_t code = 0;
     for (int bit = 31; bit >= 0; bit--)
         code = code << 2 | (a >> bit & 1) << 1 | (b >> bit & 1);

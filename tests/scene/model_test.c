@@ -577,6 +577,7 @@ TEST(invalid_models_are_rejected)
         {"nan.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", ": position ("},
         {"inf.obj", "v 0 0 inf\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", ": position ("},
         {"big.obj", "v 0 0 0\nv 1e39 0 0\nv 0 1 0\nf 1 2 3\n", ": position ("},
+        {"polygon.obj", "v 0 0 0\nv 1 0 0\nv nan 1 0\nv 1 2 0\nv 0 2 0\nf 1 2 3 4 5\n", ": position ("},
         {"normal.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn nan 0 0\nf 1//1 2//1 3//1\n", ": normal ("},
         {"range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", ": cannot read: "},
         {"below.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4\n", ": cannot read: "},
