@@ -13,7 +13,8 @@ A chapter is Markdown with formulas in TeX, and
     QUESTION `OPTIONS`                                  what the reader expects when these options are set in the figure
     :   ANSWER                                          above, or in the program that is named
     $$ A, \\qquad B \\allowbreak + C $$                  a formula, which may be broken there
-    [NUMBER]{check="EXPRESSION"}                        a number that tests/book computes again; which others may stand: prose.py
+    [NUMBER]{check="EXPRESSION"}                        a number (also a word, a formula, a vector) that tests/book computes again; which
+                                                        others may stand: prose.py
     <!-- place: HEADING; HEADING -->                    what the section above shows of places.txt
     <!-- costs: NAME OPTIONS; OPTIONS; ... -->           what accuracy costs there (costs.py)
     <!-- at: NAME = {NAME} ... -->                      below a formula: its numbers at the pixel that is clicked (terms.js)
@@ -244,7 +245,7 @@ def ask(found, chapter, drawn):
 def numbers(chapter):
     if not chapter.checks:
         return ""
-    rows = "".join(f'<tr><td>{html.escape(value)}</td><td><code>{html.escape(how)}</code></td></tr>'
+    rows = "".join(f'<tr><td>{html.escape(plain(value))}</td><td><code>{html.escape(how)}</code></td></tr>'
                    for value, how in dict.fromkeys(chapter.checks))
     return ('<details class="numbers"><summary>Where the numbers of this chapter come from</summary>\n<p>A test computes each again, '
             'from the programs, and fails if it is another one.</p><div class="wide" tabindex="0" role="group" aria-label="Numbers">'

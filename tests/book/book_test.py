@@ -50,8 +50,8 @@ class Numbers(unittest.TestCase):
         found = 0
         for chapter in CHAPTERS:
             for formula in re.findall(r"\$([^$]+)\$", chapter.text.replace("$$", "")):
-                sides = [re.sub(r"\\cos (\d+)°", r"cos(radians(\1))", side) for side in formula.split("=")]
-                if len(sides) > 1 and all(re.fullmatch(r"(?:[\d.()+/ -]|cos|radians)+", side) for side in sides):
+                sides = prose.equation(formula)
+                if sides:
                     found += 1
                     with self.subTest(chapter.path.name, formula=formula):
                         for side in sides[1:]:
@@ -62,12 +62,21 @@ class Numbers(unittest.TestCase):
         """In each place where a number may stand, and beside what is exempt."""
         figure = "![A ball of %s divisions.](program: SmoothFlat --slices 64)"
         for text, found in (("It takes 7 steps.", 1), ("Within 0.5 steps.", 1), ("| 12 | `13` |", 1), ("- 40 texels", 1), ("0 pixels, 1 step", 2),
-                            ("from 0 to 1, of 255; 1/255, $12$, `7`, in chapter 3, [lab\n3](a_33.md), OpenGL 1.1, in 1977, 16-bit", 0),
-                            ("2049, 255 operations", 2), (figure % 64, 0), (figure % 32, 1), (figure % 64 + "\n\nMore? `--slices 8`\n:   8, not 64 or 9.", 1),
+                            ("from 0 to 1, of 255; 1/255, $x_3 + 2$, $1 + 3 = 4$, `7`, in chapter 3, [lab\n3](a_33.md), OpenGL 1.1, in 1977, 16-bit", 0),
+                            ("2049, 255 operations", 2), ("$L = (0, 3, 4)$", 2), ("$0.2$", 1), ("two steps, Half a degree, Five million units", 3),
+                            ("two faces, three lights", 0), ("[two]{check=\"1 + 1\"} steps", 0), (figure % 64, 0), (figure % 32, 1), (figure % 64 + "\n\nMore? `--slices 8`\n:   8, not 64 or 9.", 1),
                             (figure % 64 + "\n\nAfter 64 divisions", 1), ("[29]{check=\"cell('shiny8')\"} steps with 8, not 9", 1)):
             with self.subTest(text):
                 chapter = book.Chapter(pathlib.Path("01-a.md"), "# A\n\n" + text)
                 self.assertEqual(len(prose.unmarked(chapter)), found, prose.unmarked(chapter))
+
+    def test_numbers_are_read_as_words_and_formulas(self):
+        for text, right, wrong in (("Four", "4.1", "3.5"), ("half a", "0.5", "0.4"), ("Five million", "5e6", "6e6"), ("$(0.5, 1.43)$", "(0.5, 1.434)", "(0.5, 1.5)"),
+                                   ("$(1, 2)$", "(1, 2.3)", "(1, 2, 3)"), ("$1/2048$", "2 ** -11", "2 ** -10"), ("$10^{-16}$", "1e-16", "1e-15"),
+                                   ("−3", "-3.4", "3"), ("24%", "24.4", "25")):
+            with self.subTest(text):
+                self.assertTrue(claims.holds(text, right)[0])
+                self.assertFalse(claims.holds(text, wrong)[0])
 
 
 class Figures(unittest.TestCase):

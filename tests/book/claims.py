@@ -12,6 +12,8 @@ import statistics
 import subprocess
 import sys
 
+import prose
+
 EXAMPLES, PAGE_NATIVE, SOURCE = (os.path.abspath(path) for path in sys.argv[1:4])
 
 
@@ -88,6 +90,12 @@ def page(path, pattern):
     return float(re.search(pattern, text)[1])
 
 
+def numbers(path, pattern):
+    """Those that stand in a part of a page or a source."""
+    found = re.search(pattern, " ".join(pathlib.Path(SOURCE, path).read_text(encoding="utf-8").split()))[1]
+    return tuple(map(float, re.findall(r"-?[\d.]+", found)))
+
+
 def operations(effect, column=3):
     """Per fragment, as the study counts them: of the program that is specialized, or of the full one, column 4."""
     return page("examples/study/tables/costs.md", rf"\| {re.escape(effect)} (?:\|[^|]*){{{column - 1}}}\| (\d+) ")
@@ -138,24 +146,43 @@ def unit(*vector):
     return tuple(x / length for x in vector)
 
 
+def product(a, b):
+    """By components, as of a colour and a reflectivity."""
+    return tuple(x * y for x, y in zip(a, b))
+
+
 def dot(a, b):
     return sum(x * y for x, y in zip(a, b))
 
 
 NAMES = {name: value for name, value in vars(math).items() if not name.startswith("_")}
 NAMES.update({function.__name__: function for function in (size, pixels, pixel, colours, difference, changed, error, largest, rms,
-                                                          rms_of_all, said, page, rows, cell, column, operations, unit, dot,
+                                                          rms_of_all, said, page, numbers, product, rows, cell, column, operations, unit, dot,
                                                           bits, default, choices, models, statistics.median)},
-             sorted=sorted, abs=abs, max=max, min=min, round=round, sum=sum, len=len, set=set, any=any, all=all, int=int, zip=zip, range=range)
+             sorted=sorted, abs=abs, max=max, min=min, round=round, sum=sum, len=len, set=set, any=any, all=all, int=int, zip=zip, range=range,
+             float=float, tuple=tuple)
 
 
 def computed(expression):
     return eval(expression, {"__builtins__": {}, **NAMES})
 
 
+def read(text):
+    """What a number in the text says, be it a word, a formula or a vector in one; and by how much each may be off that is not said."""
+    plain = text.strip("$").replace("−", "-").lower()
+    known = [prose.WORDS[word] for word in plain.split() if word in prose.WORDS]
+    if known:
+        return (math.prod(known),), (0.1 * math.prod(known),)
+    if re.search(r"[/^]", plain):
+        value = computed(re.sub(r"\^\{(.*?)\}", r" ** (\1)", plain))
+        return (value,), (1e-9 * value,)
+    parts = plain.strip("()").split(",") if plain.startswith("(") else [re.sub(r"[ ,%]", "", plain)]
+    return tuple(map(float, parts)), tuple(0.5 * 10 ** -len(part.partition(".")[2]) + 1e-9 for part in parts)
+
+
 def holds(text, expression):
     """Whether a number is right in all the digits that it has; and what it should be."""
     value = computed(expression)
-    number = float(re.sub(r"[ ,%]", "", text.replace("−", "-")))
-    digits = len(text.rstrip("%").partition(".")[2])
-    return abs(value - number) <= 0.5 * 10 ** -digits + 1e-9, value
+    said, off = read(text)
+    right = value if isinstance(value, tuple) else (value,)
+    return len(right) == len(said) and all(abs(a - b) <= c for a, b, c in zip(right, said, off)), value
