@@ -1,8 +1,8 @@
 """The numbers in the text of a chapter: each is computed from an expression, [NUMBER]{check="EXPRESSION"}, or of one of these kinds.
 
-In code, a formula that stands alone, or an equation of numbers, which tests/book evaluates; 0, 1 and 2 in other formulas; of a chapter, lab, figure or section; a year; a version; the bits in a format's name; an end of a scale (0 and 1,
-or 255 for a byte), not a count; of the options of the figure that the caption, question or answer is about; or what a computed number
-in the same paragraph is computed from.
+In code, a formula that stands alone, or an equation of numbers, which tests/book evaluates; 0, 1 and 2 in other formulas; of a chapter,
+lab, figure or section; a year; a version; the bits in a format's name; an end of a scale (0 and 1, or 255 for a byte), not a count; of the
+options of the figure that the caption, question or answer is about; or what a computed number in the same paragraph is computed from.
 """
 import re
 
@@ -15,6 +15,7 @@ COUNTED = ("step", "pixel", "degree", "percent", "%", "time", "bit", "byte", "di
            "division", "slice", "stack", "texel", "sample", "frame", "ms", "second", "unit", "lamp", "light", "colour", "material", "scene")
 SCALE = re.compile(rf"\b1/255\b|\bof\s+255\b|(?<![\d.,/])(?:0|1|255)\b(?![./]\d|\s*(?:{'|'.join(COUNTED)}))")
 NUMBER = re.compile(r"\d+(?:\.\d+)?")
+QUESTION = re.compile(r"^.*`([^`]+)`\n+:   ", re.MULTILINE)
 FORMULA = re.compile(r"\$([^$]+)\$")
 FEW = re.compile(r"\d \\times \d|[_^](?:\d|\{[^}]*\})|(?<![\d.])[012](?![\d.])")
 # Numbers as words, of what is measured: of other things, a face's corners or a model's parts, the sentence itself says them.
@@ -32,7 +33,6 @@ def equation(formula):
 
 def in_formula(found):
     return " " if equation(found[1]) else FEW.sub(" ", found[1])
-QUESTION = re.compile(r"^.*`([^`]+)`\n+:   ", re.MULTILINE)
 
 
 def unmarked(chapter):
