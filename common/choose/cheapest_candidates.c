@@ -1,5 +1,5 @@
 /* Lists and steps; in which order they are tried is cheapest_search's. */
-#include "choose/cheapest_search.h"
+#include "choose/cheapest_task.h"
 
 #include "reference/reference.h"
 #include "scene/effects.h"

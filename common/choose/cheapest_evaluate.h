@@ -5,7 +5,7 @@
 #ifndef CHEAPEST_EVALUATE_H
 #define CHEAPEST_EVALUATE_H
 
-#include "choose/cheapest_search.h"
+#include "choose/cheapest_task.h"
 
 /* What is known of an object. */
 typedef struct Found {

@@ -20,9 +20,10 @@
  * seen. Between the moments of an animation the error is not looked at, but a part of it is kept in
  * reserve, by what every second moment would have missed.
  */
-#include "choose/cheapest_evaluate.h"
+#include "choose/cheapest_search.h"
 
 #include "base/memory.h"
+#include "choose/cheapest_evaluate.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -7,7 +7,7 @@
  * Colors are kept in 16 bits, 0.002 steps at most from the exact ones. All arrays are one block,
  * which is what the file holds.
  */
-#include "choose/cheapest_search.h"
+#include "choose/cheapest_task.h"
 
 #include "reference/reference.h"
 
