@@ -24,7 +24,6 @@ enum {
     BRACKET,
     UNBRACKET,
     SPREAD,
-    LOGIC,
     TURNS,
     BEGINS,
     OTHER_LIGHT,
@@ -33,13 +32,10 @@ enum {
     SUMMED,
     RECIPROCALS
 };
-static FormsEach *const EACH[] = {
-    [EXCHANGE - EXCHANGE] = forms_exchanges,   [BRACKET - EXCHANGE] = forms_brackets,
-    [UNBRACKET - EXCHANGE] = forms_unbrackets, [SPREAD - EXCHANGE] = forms_spreads,
-    [LOGIC - EXCHANGE] = forms_logic,          [TURNS - EXCHANGE] = forms_turns,
-    [BEGINS - EXCHANGE] = forms_begins,        [OTHER_LIGHT - EXCHANGE] = forms_lights,
-    [MOVE - EXCHANGE] = forms_moves,           [EXPONENT - EXCHANGE] = forms_exponents,
-    [SUMMED - EXCHANGE] = forms_summed,        [RECIPROCALS - EXCHANGE] = forms_reciprocals};
+/* In their order. */
+static FormsEach *const EACH[] = {forms_exchanges, forms_brackets, forms_unbrackets, forms_spreads,
+                                  forms_turns,     forms_begins,   forms_lights,     forms_moves,
+                                  forms_exponents, forms_summed,   forms_reciprocals};
 
 typedef struct Rule {
     int kind, op; /* `op`: of a built-in function its number, -1: any; of one component: 1 for

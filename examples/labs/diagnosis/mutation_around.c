@@ -11,25 +11,7 @@
 
 enum { MOST = 12, NAME_SIZE = 72, TEXT_SIZE = 512, DEPTH = 4 };
 
-/* Operators. */
-
-void forms_logic(GlslTree *tree, int node, FormTake *take, void *context)
-{
-    static const unsigned short OPS[] = {GLSL_OR, GLSL_AND, GLSL_EQUAL, GLSL_NOT_EQUAL};
-    GlslNode *at = &tree->nodes[node];
-    const unsigned short was = at->op;
-    if (at->kind != GLSL_BINARY || at->type != GLSL_BOOL ||
-        tree->nodes[at->first].type != GLSL_BOOL)
-        return;
-    for (int i = 0; i < 4; i++) {
-        char text[TEXT_SIZE];
-        at->op = OPS[i];
-        glsl_expression_text(tree, node, text, sizeof text);
-        at->op = was;
-        if (OPS[i] != was)
-            take(context, &(Form){.text = text});
-    }
-}
+/* Loops. */
 
 /* One more and one less, of an int or a float. */
 static void add_one(GlslTree *tree, int node, int number, FormTake *take, void *context)

@@ -25,9 +25,6 @@ FormsEach forms_brackets, forms_unbrackets;
 /* A factor (`name`) of a product with a sum, for all but one of its terms (`other`). */
 FormsEach forms_spreads;
 
-/* Another logical operator. */
-FormsEach forms_logic;
-
 /* The condition of a loop, or its beginning, one more or less. */
 FormsEach forms_turns, forms_begins;
 
