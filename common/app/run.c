@@ -48,17 +48,18 @@ void run_close(Renderer *renderer, ShaderFiles *files, const char *name, bool do
 
 bool run_drawing(const Example *example, Options *options, Message *message)
 {
-    Canvas canvas = {0};
+    Canvas canvas = {.width = options->width, .height = options->height};
     Renderer renderer = {.example = NULL};
     FrameSink sink = {.queue = NULL};
     ShaderFiles files = {.count = 0};
+    const bool gl = !example_kind(example)->without_gl;
     options->shaders.files = &files;
     /* llvmpipe's threads would compete with those that encode pictures: on two cores PNG takes 1.08
      * times as long with them, but raw pictures 0.7 times. */
     if (options->frames > 1 && !animation_is_raw(options->animation))
         setenv("LP_NUM_THREADS", "0", 0);
     const DrawRequest request = options_request(options, example);
-    if (!run_open_canvas(&canvas, example, options, message))
+    if (gl && !run_open_canvas(&canvas, example, options, message))
         return false;
     bool done = renderer_open(&renderer, example, &canvas, &request, message);
     if (done)
@@ -70,7 +71,7 @@ bool run_drawing(const Example *example, Options *options, Message *message)
     const double start = clock_now();
     canvas_close(&canvas);
     done = frames_close(&sink, done, message);
-    if (done && options->verbose)
+    if (done && options->verbose && gl)
         fprintf(stderr, "closing, and encoding and writing the last picture, took %.1f ms\n",
                 1e3 * (clock_now() - start));
     return done;

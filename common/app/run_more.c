@@ -95,20 +95,6 @@ static bool run_printing(const Example *example, Options *options, Message *mess
     return done;
 }
 
-/* Neither a driver nor a display is needed. */
-static bool run_without_gl(const Example *example, const Options *options, Message *message)
-{
-    const Canvas size = {.width = options->width, .height = options->height};
-    const DrawRequest request = options_request(options, example);
-    Renderer renderer = {.example = NULL};
-    FrameSink sink = {.queue = NULL};
-    const bool done = renderer_open(&renderer, example, &size, &request, message) &&
-                      frames_open(&sink, &size, options, message) &&
-                      frames_draw(&renderer, options, sink.queue, message);
-    renderer_close(&renderer);
-    return frames_close(&sink, done, message);
-}
-
 bool run_more(const Example *example, Options *options, const ParameterValue *defaults,
               Message *message)
 {
@@ -138,8 +124,6 @@ bool run_more(const Example *example, Options *options, const ParameterValue *de
         return false;
     if (options_in_window(options))
         return run_window(example, options, defaults, message);
-    if (example_kind(example)->without_gl)
-        return run_without_gl(example, options, message);
     return options->watch ? run_watching(example, options, message)
                           : run_drawing(example, options, message);
 }
