@@ -90,6 +90,7 @@ TEST(every_option_is_read_in_its_short_and_long_form)
         assert_int_equal(options.width, 3);
         assert_int_equal(options.height, 16384);
     }
+    reads("-s 007", options.width == 7 && options.height == 7);
     reads("-t -1.5", options.seconds == -1.5);
     reads("--time=2e3", options.seconds == 2000);
     reads("-a 90", options.seconds == 3); /* at the lecture's 30 degrees a second */
@@ -140,7 +141,7 @@ TEST(every_bad_value_is_refused_with_the_option_and_the_value)
     static const BadValues cases[] = {
         {"--size",
          {"0", "400x", "x400", "0x0", "20000x1", "1x16385", "-1x5", "4x4x4", "x", "1.5x2", "0x10x4",
-          "99999999999x1"}},
+          "99999999999x1", "4294967297x1", "1e2x1", "+1x1"}},
         {"--time",
          {"nan", "-nan", "inf", "-infinity", "0x10", "1e999", "2e9", "-2e9", "abc", "1s", "--",
           "+-1", "1,5"}},

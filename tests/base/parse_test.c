@@ -1,37 +1,10 @@
 /*
- * parse: sizes and numbers of the command line.
+ * parse: numbers of the command line.
  */
 #include "base/parse.h"
 #include "support/testing.h"
 
 #include <float.h>
-
-TEST(a_size_is_two_whole_numbers_or_one_for_both)
-{
-    static const char *const bad[] = {
-        "",      "x",     "1x",   "x1",    "0x1",  "1x0",         "16385x1", "1x16385",
-        "-1x1",  "+1x1",  " 1x1", "1x1 ",  "1 x1", "1x 1",        "1x1x1",   "1e2x1",
-        "1.0x1", "0x1x1", "1*1",  "1x1\n", "axb",  "4294967297x1"};
-    int width = 11, height = 22;
-    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++)
-        if (parse_size(bad[i], &width, &height))
-            fail_msg("accepted: \"%s\"", bad[i]);
-    assert_int_equal(width, 11);
-    assert_int_equal(height, 22);
-    static const struct {
-        const char *text;
-        int width, height;
-    } good[] = {{"1x1", 1, 1},
-                {"800", 800, 800},
-                {"16384x16384", 16384, 16384},
-                {"007x3", 7, 3},
-                {"640X480", 640, 480}};
-    for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
-        assert_true(parse_size(good[i].text, &width, &height));
-        assert_int_equal(width, good[i].width);
-        assert_int_equal(height, good[i].height);
-    }
-}
 
 TEST(a_number_is_finite_decimal_and_nothing_else)
 {
@@ -53,15 +26,6 @@ TEST(a_number_is_finite_decimal_and_nothing_else)
         assert_true(parse_number(good[i].text, -DBL_MAX, DBL_MAX, &number));
         assert_true(number == good[i].value);
     }
-}
-
-TEST(the_ends_of_a_range_belong_to_it)
-{
-    double number;
-    assert_true(parse_number("-2", -2, 3, &number));
-    assert_true(parse_number("3", -2, 3, &number));
-    assert_false(parse_number("-2.0000001", -2, 3, &number));
-    assert_false(parse_number("3.0000001", -2, 3, &number));
 }
 
 TEST(numbers_are_parted_by_commas)
