@@ -44,50 +44,6 @@ static void assert_left_out(const Parameter *parameter)
     assert_string_equal(written, "");
 }
 
-TEST(test_numbers_in_the_fewest_digits)
-{
-    static const struct {
-        double number;
-        const char *text;
-    } cases[] = {
-        {0.1, "0.1"},
-        {-50, "-50"},
-        {100000, "100000"},
-        {0.1 + 0.2, "0.30000000000000004"},
-        {1.0 / 3, "0.3333333333333333"},
-        {1e22, "1e+22"},
-        {1e-7, "1e-07"},
-        {DBL_MAX, "1.7976931348623157e+308"},
-        {DBL_MIN, "2.2250738585072014e-308"},
-        {9007199254740993.0, "9007199254740992"},
-    };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        number = cases[i].number;
-        assert_written(&NUMBER, cases[i].text, (ParameterValue){.number = 7});
-    }
-}
-
-TEST(test_every_double_comes_back)
-{
-    uint64_t bits = 1;
-    int tried = 0;
-    for (int i = 0; i < 100000; i++) {
-        char written[PARAMETER_TEXT_SIZE];
-        double before;
-        bits = bits * 6364136223846793005U + 1442695040888963407U;
-        memcpy(&before, &bits, sizeof before);
-        number = before;
-        if (!isfinite(before))
-            continue;
-        assert_true(parameter_write(&NUMBER, written, sizeof written));
-        number = 0;
-        assert_true(parameter_read(&NUMBER, written, NULL));
-        assert_memory_equal(&number, &before, sizeof before);
-        tried++;
-    }
-    assert_true(tried > 90000);
-}
-
 TEST(test_other_kinds)
 {
     whole = INT32_MIN;
@@ -140,18 +96,6 @@ TEST(test_no_room)
     color = (Vec3){0.25, 0.5, 0.75};
     assert_false(parameter_write(&COLOR, written, sizeof written));
     assert_false(parameter_write(&COLOR, NULL, 0));
-}
-
-TEST(test_texts_are_compared_by_their_letters)
-{
-    char same[] = "teapot.obj";
-    const ParameterValue value = {.text = same}, none = {.text = NULL};
-    text = "teapot.obj";
-    assert_true(parameter_equal(&TEXT, &value));
-    assert_false(parameter_equal(&TEXT, &none));
-    text = NULL;
-    assert_false(parameter_equal(&TEXT, &value));
-    assert_true(parameter_equal(&TEXT, &none));
 }
 
 TEST_MAIN("parameter", NULL, NULL)
