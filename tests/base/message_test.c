@@ -1,40 +1,8 @@
 /*
- * message: the first message wins, long text is cut, NULL is accepted.
+ * message: long text is cut, NULL is accepted.
  */
 #include "base/message.h"
 #include "support/testing.h"
-
-TEST(setting_formats_and_returns_false)
-{
-    Message message = {0};
-    assert_false(message_set(&message, "%s: %d of %s", "subject", 3, "four"));
-    assert_string_equal(message.text, "subject: 3 of four");
-    assert_false(message.located);
-}
-
-TEST(the_first_message_wins)
-{
-    Message message = {0};
-    message_set(&message, "the cause");
-    assert_false(message_set(&message, "a consequence"));
-    assert_string_equal(message.text, "the cause");
-}
-
-TEST(adding_appends_and_returns_false)
-{
-    Message message = {0};
-    assert_false(message_add(&message, "first"));
-    assert_false(message_add(&message, "\n  tried %s", "second"));
-    assert_string_equal(message.text, "first\n  tried second");
-}
-
-TEST(percent_signs_of_an_argument_are_kept)
-{
-    Message message = {0};
-    message_set(&message, "%s", "100%s%n");
-    message_add(&message, "%s", "%d");
-    assert_string_equal(message.text, "100%s%n%d");
-}
 
 TEST(long_text_is_cut_and_stays_a_string)
 {
