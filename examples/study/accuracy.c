@@ -106,8 +106,8 @@ static void make_details(void)
     }
     fprintf(file,
             "\nThe folder has results.csv, one line per scene and setting, from which an\n"
-            "interrupted run continues; results.json; table.txt; and for each scene a plot\n"
-            "of error over time and sheets of drawn, exact and difference; index.html has all.\n"
+            "interrupted run continues; table.txt; and for each scene a plot of error over\n"
+            "time and sheets of drawn, exact and difference; index.html has all.\n"
             "Prints the conclusions; with --verbose also the tables of efficient settings.\n"
             "\nTry:  accuracy --quick\n"
             "      accuracy --scene shiny32 --budget 2\n"
@@ -233,15 +233,16 @@ static bool write_tables(const Survey *survey, const Options *options, const cha
 }
 
 /* The tables of models, matrices and shadows, as text of its own. */
-static bool measure_more(Survey *survey, const Options *options, ModelsApart *apart,
-                         ShadowWays *ways, char **text, Message *message)
+static bool measure_more(Survey *survey, ModelsApart *apart, ShadowWays *ways, char **text,
+                         Message *message)
 {
     OutputText more;
     output_text_open(&more);
-    bool done = models_report(survey, options->output, markdown, more.file, apart, message);
-    if (done)
+    const bool done = models_report(survey, markdown, more.file, apart, message);
+    if (done) {
         findings_matrices(&survey->results, markdown, more.file);
-    done = done && shadow_ways_report(survey, options->output, markdown, more.file, ways, message);
+        shadow_ways_report(survey, markdown, more.file, ways);
+    }
     *text = output_text_close(&more);
     return done;
 }
@@ -326,13 +327,11 @@ static bool draw_sheets(Survey *survey, const Options *options, int number, Mess
 static bool report(Survey *survey, const Options *options, const int *scenes, int count,
                    Message *message)
 {
-    char path[PATH_MAX], *more = NULL;
+    char *more = NULL;
     ModelsApart apart;
     ShadowWays ways;
-    bool done =
-        measure_more(survey, options, &apart, &ways, &more, message) &&
-        write_tables(survey, options, more, message) &&
-        results_write_json(&survey->results, in_folder(options, "results.json", path), message);
+    bool done = measure_more(survey, &apart, &ways, &more, message) &&
+                write_tables(survey, options, more, message);
     Progress progress = progress_start("plots and sheets");
     for (int i = 0; i < count && done; i++) {
         done = draw_sheets(survey, options, scenes[i], message);

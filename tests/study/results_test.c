@@ -447,39 +447,6 @@ TEST_WITH(0, a_driver_s_name_cannot_break_a_row, testing_enter_folder, leave)
     free(said);
 }
 
-TEST_WITH(0, json_is_valid_and_has_every_row, testing_enter_folder, leave)
-{
-    if (system("python3 -c pass") != 0)
-        skip();
-    results_close(&results);
-    assert_true(results_write_json(&results, "a.json", fresh()));
-    assert_int_equal(system("python3 -m json.tool a.json >/dev/null"), 0);
-    for (int i = 0; i < 3; i++) {
-        ResultRow row = row_of(i);
-        snprintf(row.renderer, sizeof row.renderer,
-                 "\\\"\x1F\t\xC3\xA9\xFF\xC3 \xED\xA0\x80 \xF0\x9F\x98\x80 \xE2\x82");
-        row.all_rms = INFINITY;
-        results_add(&results, &row);
-    }
-    assert_true(results_write_json(&results, "a.json", &message));
-    assert_int_equal(system("python3 -c 'import json\n"
-                            "d = json.load(open(\"a.json\"))\n"
-                            "r = d[\"rows\"]\n"
-                            "assert len(r) == 3\n"
-                            "assert r[1][\"setting\"][\"interpolation\"] == \"gouraud\"\n"
-                            "assert r[1][\"time\"] == 1 / 3 and r[1][\"gpu_time\"] is None\n"
-                            "assert r[1][\"vertices\"] is None and r[1][\"all_rms\"] is None\n"
-                            "assert r[1][\"fragments\"] == 123456789012\n"
-                            "assert r[1][\"renderer\"].startswith(chr(92) + chr(34) + chr(32))\n"
-                            "for a, c in r[1][\"setting\"].items():\n"
-                            "    assert c in d[\"axes\"][a][\"choices\"]\n'"),
-                     0);
-    assert_false(results_write_json(&results, "nowhere/a.json", &message));
-    assert_non_null(strstr(message.text, "nowhere/"));
-    assert_false(results_write_json(&results, "/dev/full", fresh()));
-    assert_non_null(strstr(message.text, "No space left"));
-}
-
 /* Front. */
 
 /* A made-up row: its number makes its setting. */

@@ -78,8 +78,7 @@ static bool measure(Survey *survey, Model models[MODELS], Message *message)
     return true;
 }
 
-static void print_models(const Model models[MODELS], double phong, const ResultRow *like,
-                         Table *table, FILE *csv)
+static void print_models(const Model models[MODELS], double phong, Table *table)
 {
     for (int i = 0; i < MODELS; i++) {
         const Model *model = &models[i];
@@ -88,18 +87,11 @@ static void print_models(const Model models[MODELS], double phong, const ResultR
             times[k] = model->milliseconds[k];
             ratios[k] = times[k] / models[PHONG].milliseconds[k];
         }
-        const double time = clock_median(times, ROUNDS);
-        const double ratio = clock_median(ratios, ROUNDS);
-        const double lower = clock_quantile(ratios, ROUNDS, 0.25);
-        const double upper = clock_quantile(ratios, ROUNDS, 0.75);
         table_row(table, "%s|%g|%.1f|%.2f|%.3f|%.2f|%.3f|%.3f|%.2f [%.2f, %.2f]|%d", NAMES[i],
                   phong, model->shininess, model->found.interior_maximum, model->found.interior_rms,
-                  model->apart_maximum, model->apart_rms, time, ratio, lower, upper,
-                  model->found.fragment_operations);
-        fprintf(csv, "%g,\"%s\",%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%d,\"%s\",\"%s\"\n",
-                phong, NAMES[i], model->shininess, model->found.interior_maximum,
-                model->found.interior_rms, model->apart_maximum, model->apart_rms, time, ratio,
-                lower, upper, model->found.fragment_operations, like->renderer, like->threads);
+                  model->apart_maximum, model->apart_rms, clock_median(times, ROUNDS),
+                  clock_median(ratios, ROUNDS), clock_quantile(ratios, ROUNDS, 0.25),
+                  clock_quantile(ratios, ROUNDS, 0.75), model->found.fragment_operations);
     }
 }
 
@@ -109,8 +101,8 @@ static void widen(double range[2], double value)
     range[1] = fmax(range[1], value);
 }
 
-static bool report_shininess(Survey *survey, double shininess, Table *table, FILE *csv,
-                             ModelsApart *apart, Message *message)
+static bool report_shininess(Survey *survey, double shininess, Table *table, ModelsApart *apart,
+                             Message *message)
 {
     Model *models = memory_new(MODELS, sizeof *models);
     bool done = true;
@@ -122,7 +114,7 @@ static bool report_shininess(Survey *survey, double shininess, Table *table, FIL
     if (done) {
         widen(apart->same, models[BLINN_PHONG].apart_maximum);
         widen(apart->fitted, models[FITTED].apart_maximum);
-        print_models(models, shininess, &survey->like, table, csv);
+        print_models(models, shininess, table);
     }
     for (int i = 0; i < MODELS; i++) {
         setting_picture_close(&models[i].drawing);
@@ -133,30 +125,21 @@ static bool report_shininess(Survey *survey, double shininess, Table *table, FIL
     return done;
 }
 
-bool models_report(Survey *survey, const char *folder, bool markdown, FILE *file,
-                   ModelsApart *apart, Message *message)
+bool models_report(Survey *survey, bool markdown, FILE *file, ModelsApart *apart, Message *message)
 {
     *apart = (ModelsApart){{INFINITY, 0}, {INFINITY, 0}};
-    OutputText csv;
     bool done = true;
     char with[RESULT_WITH_SIZE];
     results_measured_with(&survey->like, with);
     Table table;
     table_open(&table, "model|s|shininess|error|rms|from Phong|rms|ms|over Phong|operations");
-    output_text_open(&csv);
-    fprintf(csv.file, "s,model,shininess,error_maximum,error_rms,apart_maximum,apart_rms,"
-                      "milliseconds,ratio,ratio_lower,ratio_upper,fragment_operations,"
-                      "renderer,threads\n");
     for (int i = 0; i < SHININESS_COUNT && done; i++)
-        done = report_shininess(survey, SHININESSES[i], &table, csv.file, apart, message);
+        done = report_shininess(survey, SHININESSES[i], &table, apart, message);
     fprintf(file,
             "\nPhong and Blinn-Phong on a sphere, fitted to Phong's shininess s: the error of each "
             "against its own exact picture,\nand the distance of its exact picture from Phong's "
             "(steps of 1/255, interior)\n%s\n\n",
             with);
     table_close(&table, markdown, file);
-    if (done)
-        return output_text_put(&csv, folder, "models.csv", message);
-    free(output_text_close(&csv));
-    return false;
+    return done;
 }

@@ -59,9 +59,8 @@ typedef struct ModelsApart {
 } ModelsApart;
 
 /* Measures both on the study's shiny sphere for some exponents, Blinn-Phong also with the exponent
- * fitted to Phong's. Prints a table and writes FOLDER/models.csv. */
-bool models_report(Survey *survey, const char *folder, bool markdown, FILE *file,
-                   ModelsApart *apart, Message *message);
+ * fitted to Phong's. Prints a table. */
+bool models_report(Survey *survey, bool markdown, FILE *file, ModelsApart *apart, Message *message);
 
 /* The best of the measured settings within a limit of error or time. */
 

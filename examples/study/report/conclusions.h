@@ -111,10 +111,8 @@ typedef struct ShadowWays {
 bool shadow_ways_best(const ShadowWays *ways, int scene, ShadowMeasured *volumes,
                       ShadowMeasured *map, int *size);
 
-/* Measures, prints a table and writes FOLDER/shadows.csv. A quick survey has one scene, and few
- * maps. */
-bool shadow_ways_report(Survey *survey, const char *folder, bool markdown, FILE *file,
-                        ShadowWays *ways, Message *message);
+/* Measures, and prints a table. A quick survey has one scene, and few maps. */
+void shadow_ways_report(Survey *survey, bool markdown, FILE *file, ShadowWays *ways);
 
 /* For each scene that was measured FOLDER/finding-shadows-NAME.svg and .png, the error by the size
  * of the map, and finding-shadows-NAME-time, the time. Volumes are a horizontal line. */

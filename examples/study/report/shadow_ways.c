@@ -227,58 +227,45 @@ static bool measure_scene(Survey *survey, int number, ShadowWays *ways, Message 
 
 /* The table. */
 
-/* Into the file, and unless it is left out into the table. */
 static void put_row(int scene, const char *name, int size, const ShadowMeasured *measured,
-                    Table *table, FILE *csv)
+                    Table *table)
 {
     char way[64];
     const ShadowTime *still = &measured->still, *moving = &measured->moving;
     if (still->ratio <= 0)
         return;
     snprintf(way, sizeof way, size ? "%s: %d" : "%s", name, size);
-    if (table)
-        table_row(table, "%s|%s|%.2f|%.2f|%lld|%.2f [%.2f, %.2f]|%.2f [%.2f, %.2f]",
-                  SCENES[scene].name, way, measured->error, measured->all, measured->wrong,
-                  still->ratio, still->lower, still->upper, moving->ratio, moving->lower,
-                  moving->upper);
-    fprintf(csv, "%s,\"%s\",%d,%.6g,%.6g,%lld,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g\n", SCENES[scene].name,
-            name, size, measured->error, measured->all, measured->wrong, still->ratio, still->lower,
-            still->upper, moving->ratio, moving->lower, moving->upper);
+    table_row(table, "%s|%s|%.2f|%.2f|%lld|%.2f [%.2f, %.2f]|%.2f [%.2f, %.2f]", SCENES[scene].name,
+              way, measured->error, measured->all, measured->wrong, still->ratio, still->lower,
+              still->upper, moving->ratio, moving->lower, moving->upper);
 }
 
 /* A page's table has other biases for few sizes. */
-static void put_scene(const ShadowWays *ways, int scene, bool markdown, Table *table, FILE *csv)
+static void put_scene(const ShadowWays *ways, int scene, bool markdown, Table *table)
 {
-    put_row(scene, "volumes", 0, &ways->scenes[scene].volumes, table, csv);
+    put_row(scene, "volumes", 0, &ways->scenes[scene].volumes, table);
     for (int kind = 0; kind < SHADOW_MAP_KINDS; kind++)
         for (int size = 0; size < SHADOW_MAP_SIZES; size++)
-            put_row(scene, KINDS[kind].name, SIZES[size], &ways->scenes[scene].maps[kind][size],
-                    markdown && kind >= QUICK_KINDS && size % QUICK_STEP ? NULL : table, csv);
+            if (!markdown || kind < QUICK_KINDS || size % QUICK_STEP == 0)
+                put_row(scene, KINDS[kind].name, SIZES[size], &ways->scenes[scene].maps[kind][size],
+                        table);
 }
 
-static bool print_ways(const ShadowWays *ways, const char *folder, bool markdown, FILE *file,
-                       Message *message)
+static void print_ways(const ShadowWays *ways, bool markdown, FILE *file)
 {
-    OutputText csv;
     Table table;
-    output_text_open(&csv);
     table_open(&table, "scene|shadows|near edges|all pixels|wrong inside|time|a light moves");
-    fprintf(csv.file,
-            "scene,way,size,near_rms,all_rms,wrong,ratio,ratio_lower,ratio_upper,moving_ratio,"
-            "moving_lower,moving_upper\n");
     for (int i = 0; i < SHADOW_SCENES; i++)
-        put_scene(ways, i, markdown, &table, csv.file);
+        put_scene(ways, i, markdown, &table);
     fprintf(file,
             "\nShadows: the root mean square error of the pixels within two of a shadow's edge, "
             "and of all (steps of 1/255),\nthe pixels inside surfaces off by more than a step, and "
             "the time over that of a frame without shadows\n%s\n\n",
             ways->with);
     table_close(&table, markdown, file);
-    return output_text_put(&csv, folder, "shadows.csv", message);
 }
 
-bool shadow_ways_report(Survey *survey, const char *folder, bool markdown, FILE *file,
-                        ShadowWays *ways, Message *message)
+void shadow_ways_report(Survey *survey, bool markdown, FILE *file, ShadowWays *ways)
 {
     memset(ways, 0, sizeof *ways);
     results_measured_with(&survey->like, ways->with);
@@ -289,7 +276,7 @@ bool shadow_ways_report(Survey *survey, const char *folder, bool markdown, FILE 
         fprintf(file, "\n%s: not measured: %s\n", SCENES[i].what, why.text); /* by this driver */
         memset(&ways->scenes[i], 0, sizeof ways->scenes[i]);
     }
-    return print_ways(ways, folder, markdown, file, message);
+    print_ways(ways, markdown, file);
 }
 
 /* The plots. */

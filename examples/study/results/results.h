@@ -116,11 +116,6 @@ bool results_parse(Results *results, const char *path, const char *text, size_t 
  * or unchanged. Rows that results_read would skip and files with other columns are refused. */
 bool results_append(const char *path, const ResultRow *rows, int count, Message *message);
 
-/* All rows as JSON, keyed by the file's columns, completely or not at all. Unknown
- * values are null.
- */
-bool results_write_json(const Results *results, const char *path, Message *message);
-
 void results_close(Results *results);
 
 /* The efficient settings (the Pareto front): no other beats them in both error and time. */
