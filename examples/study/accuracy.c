@@ -59,7 +59,9 @@ static const Parameter parameters[] = {
      PARAMETER_TEXT, .value = &part, .standard = "", .codec = &OPTION_PART},
     {"merge", "measure nothing: report what all parts in DIR have measured, as one survey",
      PARAMETER_FLAG, .value = &merge},
-    {"all-rows", "print tables of every setting, not only of the efficient ones as --verbose does",
+    {"all-rows",
+     "print tables of every setting, not only of the efficient ones as --verbose does; with "
+     "--compare, too",
      PARAMETER_FLAG, .value = &all_rows},
     {"markdown", "print tables of the findings as Markdown, with processor, driver and compiler",
      PARAMETER_FLAG, .value = &markdown},
@@ -496,7 +498,7 @@ int main(int argc, char *argv[])
         return options_fail(usage.name, &said, EXIT_USAGE);
     }
     const char *const folders[2] = {compared, options.names[0]};
-    if (compared ? !compare_folders(folders, options.output, stdout, &message)
+    if (compared ? !compare_folders(folders, all_rows, stdout, &message)
         : proved < STUDY_SCENE_COUNT
             ? !prove_study(proved, cameras.high[2] > 0 ? &cameras : NULL, options.canvas.backend,
                            options.height, stdout, &message)

@@ -7,7 +7,6 @@
 #include "study/report/compare.h"
 
 #include "base/output.h"
-#include "base/template.h"
 #include "study/measure/scenes.h"
 #include "study/results/results.h"
 #include "study/results/table.h"
@@ -25,7 +24,7 @@ typedef struct Ratio {
 
 typedef struct Pair {
     const Results *results;
-    TemplateValues *page;
+    bool all; /* are printed */
     Table table;
     int rows, errors, timed, times; /* in both; with other errors; with known times; with others */
     double most;                    /* difference of errors */
@@ -55,8 +54,8 @@ static void put_ratio(char text[48], const Ratio *ratio)
         snprintf(text, 48, "too noisy");
 }
 
-/* A setting in both; those that differ from the usual one in one choice are printed, too. */
-static void add_row(Pair *pair, TemplateValues *scene, const ResultRow *a, const ResultRow *b)
+/* A setting in both. */
+static void add_row(Pair *pair, const ResultRow *a, const ResultRow *b)
 {
     const Ratio first = ratio_of(&pair->results[0], a), second = ratio_of(&pair->results[1], b);
     const double more = b->interior_maximum - a->interior_maximum;
@@ -77,36 +76,19 @@ static void add_row(Pair *pair, TemplateValues *scene, const ResultRow *a, const
         pair->most = more;
         snprintf(pair->at, sizeof pair->at, "%s: %s", a->scene, setting);
     }
-    if (quality_unusual(&a->quality) <= 1)
+    if (pair->all || quality_unusual(&a->quality) <= 1)
         table_row(&pair->table, "%s: %s|%.2f|%.2f|%+.2f|%s|%s|%s", a->scene, setting,
                   a->interior_maximum, b->interior_maximum, more, ratios[0], ratios[1], ratios[2]);
-    TemplateValues *row = template_add(scene, "row");
-    template_set(row, "setting", "%s", setting);
-    template_set(row, "a", "%.2f", a->interior_maximum);
-    template_set(row, "b", "%.2f", b->interior_maximum);
-    template_set(row, "more", "%+.2f", more);
-    const bool other = fabs(more) >= EQUAL_STEPS, slower = second.middle > first.middle;
-    template_set(row, "apart", "%s", !other ? "" : more > 0 ? "worse" : "better");
-    template_set(row, "first", "%s", ratios[0]);
-    template_set(row, "second", "%s", ratios[1]);
-    template_set(row, "ratio", "%s", ratios[2]);
-    template_set(row, "timed", "%s", !apart ? "" : slower ? "worse" : "better");
 }
 
 static void add_scene(Pair *pair, const char *name)
 {
-    TemplateValues *scene = NULL;
     int count;
     const ResultRow **rows = results_latest(&pair->results[0], name, &count);
     for (int i = 0; i < count; i++) {
         const ResultRow *other = results_find(&pair->results[1], name, &rows[i]->quality);
-        if (!other || !isfinite(rows[i]->interior_maximum) || !isfinite(other->interior_maximum))
-            continue;
-        if (!scene) {
-            scene = template_add(pair->page, "scene");
-            template_set(scene, "name", "%s", name);
-        }
-        add_row(pair, scene, rows[i], other);
+        if (other && isfinite(rows[i]->interior_maximum) && isfinite(other->interior_maximum))
+            add_row(pair, rows[i], other);
     }
     free(rows);
 }
@@ -121,36 +103,24 @@ static bool read_folder(Results *results, const char *folder, Message *message)
            message_set(message, "%s: has no results; accuracy -o %s measures them", path, folder);
 }
 
-static void say(Pair *pair, FILE *file, const char *text)
+static void say_all(const Pair *pair, const char *const folders[2], FILE *file)
 {
-    fprintf(file, "%s\n", text);
-    template_set(template_add(pair->page, "line"), "text", "%s", text);
-}
-
-static void say_all(Pair *pair, const char *const folders[2], FILE *file)
-{
-    char text[QUALITY_TEXT_SIZE + 256];
     for (int i = 0; i < 2; i++) {
         char with[RESULT_WITH_SIZE];
         results_with(&pair->results[i], with);
-        snprintf(text, sizeof text, "%c, %s: %s", "AB"[i], folders[i], with);
-        say(pair, file, text);
+        fprintf(file, "%c, %s: %s\n", "AB"[i], folders[i], with);
     }
-    snprintf(text, sizeof text, "%d settings are in both; %d have another error in B%s%s",
-             pair->rows, pair->errors, pair->errors ? ", most of all " : "",
-             pair->errors ? pair->at : "");
-    say(pair, file, text);
-    snprintf(text, sizeof text,
-             "%d of the %d with known times take another multiple of the usual setting's time",
-             pair->times, pair->timed);
-    say(pair, file, text);
+    fprintf(file, "%d settings are in both; %d have another error in B%s%s\n", pair->rows,
+            pair->errors, pair->errors ? ", most of all " : "", pair->errors ? pair->at : "");
+    fprintf(file,
+            "%d of the %d with known times take another multiple of the usual setting's time\n\n",
+            pair->times, pair->timed);
 }
 
-bool compare_folders(const char *const folders[2], const char *output, FILE *file, Message *message)
+bool compare_folders(const char *const folders[2], bool all, FILE *file, Message *message)
 {
     Results results[2] = {{.rows = NULL}, {.rows = NULL}};
-    Pair pair = {.results = results, .page = template_values()};
-    char path[PATH_MAX];
+    Pair pair = {.results = results, .all = all};
     bool done = read_folder(&results[0], folders[0], message) &&
                 read_folder(&results[1], folders[1], message);
     table_open(&pair.table, "setting|error A|B|B - A|time over the usual: A|B|B / A");
@@ -159,19 +129,12 @@ bool compare_folders(const char *const folders[2], const char *output, FILE *fil
     if (done && !pair.rows)
         done = message_set(message, "%s and %s: have no setting of a scene in common", folders[0],
                            folders[1]);
-    if (done)
-        say_all(&pair, folders, file);
-    fputs(done ? "\n" : "", file);
-    done = done && output_folder(output, message) &&
-           output_path(path, output, "compare.html", message) &&
-           template_write("examples/study/report/compare.html", pair.page, path, message);
     if (done) {
+        say_all(&pair, folders, file);
         table_close(&pair.table, false, file);
-        fprintf(file, "%s\n", path);
     } else {
         free(output_text_close(&pair.table.rows));
     }
-    template_close(pair.page);
     results_close(&results[0]);
     results_close(&results[1]);
     return done;

@@ -8,9 +8,8 @@
 
 #include <stdio.h>
 
-/* Prints the settings that the results of both folders have, of those with one unusual choice, and
- * writes OUTPUT/compare.html, with all. */
-bool compare_folders(const char *const folders[2], const char *output, FILE *file,
-                     Message *message);
+/* Prints the settings that the results of both folders have: all, or those with at most one unusual
+ * choice. */
+bool compare_folders(const char *const folders[2], bool all, FILE *file, Message *message);
 
 #endif
