@@ -22,8 +22,6 @@ packages_to_convert="g++ libopenimageio-dev"
 packages_to_animate="ffmpeg"
 # Vectors:
 packages_to_diagram="libcairo2-dev fonts-liberation"
-# gallery --manifest and --verify: SHA-256.
-packages_to_verify="libgcrypt20-dev"
 # precision: the truth.
 packages_to_measure="libmpfr-dev gnuplot-nox"
 # accuracy and hard_cases: plots.

@@ -100,7 +100,7 @@ static bool put_command(FILE *line, const Usage *usage, Options *own,
 {
     Options usual = options_default(usage);
     Parameter table[OPTIONS_MAX], usual_table[OPTIONS_MAX];
-    own->size_given = usage->gallery && own->size_given; /* else the size alone counts */
+    own->size_given = false; /* the size alone counts */
     if (!own->output_given)
         own->output = NULL;
     if (options_in_window(own)) /* which draws as the first does */
@@ -120,19 +120,13 @@ static bool put_command(FILE *line, const Usage *usage, Options *own,
     return !defaults || put_own(line, table + common, defaults);
 }
 
-bool command_write_usage(const Usage *usage, const Options *options, const ParameterValue *defaults,
-                         char *text, size_t size)
-{
-    Options own = *options;
-    OutputText line;
-    output_text_open(&line);
-    const bool done = put_command(line.file, usage, &own, defaults);
-    return take(&line, done, text, size);
-}
-
 bool command_write(const Example *example, const Options *options, const ParameterValue *defaults,
                    char *text, size_t size)
 {
     const Usage usage = options_usage(example);
-    return command_write_usage(&usage, options, defaults, text, size);
+    Options own = *options;
+    OutputText line;
+    output_text_open(&line);
+    const bool done = put_command(line.file, &usage, &own, defaults);
+    return take(&line, done, text, size);
 }

@@ -23,8 +23,4 @@ bool command_start(const char *name, const char *argv0, char *text, size_t size)
 bool command_write(const Example *example, const Options *options, const ParameterValue *defaults,
                    char *text, size_t size);
 
-/* The same for a gallery, without names. */
-bool command_write_usage(const Usage *usage, const Options *options, const ParameterValue *defaults,
-                         char *text, size_t size);
-
 #endif

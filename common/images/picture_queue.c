@@ -37,8 +37,7 @@ struct PictureQueue {
     Message failure; /* of the first picture that could not be written */
 };
 
-/* Calls image_write or, with a file, image_encode. */
-static bool write_picture(const Picture *picture, ImageFile *file, Message *message)
+bool picture_write(const Picture *picture, Message *message)
 {
     ImageText text[7] = {
         {"Title", picture->title},
@@ -53,18 +52,7 @@ static bool write_picture(const Picture *picture, ImageFile *file, Message *mess
         *last = (ImageText){"Sources", picture->sources};
     const ImageOptions options = {
         .compress = picture->compress, .alpha = picture->alpha, .text = text};
-    return file ? image_encode(&picture->image, "png", &options, file, message)
-                : image_write(&picture->image, picture->path, &options, message);
-}
-
-bool picture_write(const Picture *picture, Message *message)
-{
-    return write_picture(picture, NULL, message);
-}
-
-bool picture_encode(const Picture *picture, ImageFile *file, Message *message)
-{
-    return write_picture(picture, file, message);
+    return image_write(&picture->image, picture->path, &options, message);
 }
 
 static bool write_file(void *data, const Picture *picture, Message *message)

@@ -27,14 +27,10 @@ typedef struct Picture {
 /* Encodes and writes, as output_write does. */
 bool picture_write(const Picture *picture, Message *message);
 
-/* The same, but only encodes, as PNG. */
-bool picture_encode(const Picture *picture, ImageFile *file, Message *message);
-
 /* Reads what picture_write has written to picture->path, a PNG: the image, which is reopened if
  * its size differs, alpha, and the texts. An image that was zeroed is to be closed even on failure.
- * picture_decode: from memory, and the path is for messages. */
+ */
 bool picture_read(Picture *picture, Message *message);
-bool picture_decode(Picture *picture, const ImageFile *file, Message *message);
 
 /* Takes a queue's pictures. False stops the queue; without a message if that is no error. */
 typedef bool PictureWrite(void *data, const Picture *picture, Message *message);

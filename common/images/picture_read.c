@@ -83,22 +83,17 @@ end:
     return done;
 }
 
-bool picture_decode(Picture *picture, const ImageFile *file, Message *message)
-{
-    Message why = {0};
-    FILE *stream = file->size ? fmemopen(file->bytes, file->size, "rb") : NULL;
-    const bool done = stream && read_png(picture, stream, &why);
-    if (stream)
-        fclose(stream);
-    return done || message_set(message, "%s: is no whole PNG picture%s%s", picture->path,
-                               why.text[0] ? ": " : "", why.text);
-}
-
 bool picture_read(Picture *picture, Message *message)
 {
     ImageFile file;
-    const bool done =
-        image_file_read(&file, picture->path, message) && picture_decode(picture, &file, message);
+    Message why = {0};
+    if (!image_file_read(&file, picture->path, message))
+        return false;
+    FILE *stream = file.size ? fmemopen(file.bytes, file.size, "rb") : NULL;
+    const bool done = stream && read_png(picture, stream, &why);
+    if (stream)
+        fclose(stream);
     image_file_close(&file);
-    return done;
+    return done || message_set(message, "%s: is no whole PNG picture%s%s", picture->path,
+                               why.text[0] ? ": " : "", why.text);
 }

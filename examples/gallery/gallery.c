@@ -18,7 +18,6 @@
 #include "base/text.h"
 #include "core/shader_files.h"
 #include "web/all_examples.h"
-#include "gallery/manifest.h"
 #include "gallery/regression.h"
 #include "gallery/sheet.h"
 #include "window/backends.h"
@@ -28,24 +27,20 @@
 #include <string.h>
 #include <sys/stat.h>
 
-static bool with_lecture, with_manifest;
-static const char *verified; /* the manifest, or the earlier pictures' folder; NULL: none */
+static bool with_lecture, keeps_shaders;
+static const char *verified; /* the earlier pictures' folder; NULL: none */
 
 static const Parameter parameters[] = {
     {"lecture",
      "the lecture's nine programs, beside those named; without --time its animations are at 1 s",
      PARAMETER_FLAG, .value = &with_lecture},
-    {"manifest",
-     "also write manifest.txt, the SHA-256 of every picture and of its pixels, for sha256sum -c and "
-     "for --verify, and the shader files that were read",
-     PARAMETER_FLAG, .value = &with_manifest},
+    {"keep-shaders", "also keep the shader files that were read, in DIR/shaders, for --verify",
+     PARAMETER_FLAG, .value = &keeps_shaders},
     {"verify",
-     "draw the pictures of a manifest in memory, with the same options, and say which differ. Exit "
-     "status 1 if pixels do, 0 if only the texts in the files. Of a folder of earlier pictures: say "
-     "of each pixel that changed whether rounding can have moved it, and if not, which line of the "
-     "shaders the change looks like; a page shows both (without -o in \"changed\"). Exit status 1 "
-     "if any cannot be",
-     PARAMETER_TEXT, .value = &verified, .min = 1, .placeholder = "FILE|DIR", .standard = ""},
+     "draw the pictures of a folder of earlier ones again, and say of each pixel that changed "
+     "whether rounding can have moved it, and if not, which line of the shaders the change looks "
+     "like; a page shows both (without -o in \"changed\"). Exit status 1 if any cannot be",
+     PARAMETER_TEXT, .value = &verified, .min = 1, .placeholder = "DIR", .standard = ""},
     {.name = NULL},
 };
 
@@ -159,7 +154,7 @@ static bool draw_one(const Example *example, Canvas *canvas, const Options *opti
     PictureSources sources = {.files = 0};
     if (own.part.count)
         picture_texts_sources(&sources, example, &own, picture);
-    else if (with_manifest && drawn)
+    else if (keeps_shaders && drawn)
         drawn = regression_keep(options->output, &files, message);
     shader_files_close(&files);
     return drawn;
@@ -243,43 +238,13 @@ static bool write_sheet(const Image *sheet, const Options *options, Message *mes
     return image_write(sheet, path, &image_options, message);
 }
 
-/* The command of a manifest. The folder of --shaders is private. */
-static bool set_command(Manifest *manifest, const Options *options, Message *message)
-{
-    Options own = *options;
-    own.output_given = false;
-    own.shaders.folder = own.shaders.folder ? "..." : NULL;
-    return command_write_usage(&GALLERY, &own, NULL, manifest->command, sizeof manifest->command) ||
-           message_set(message, "manifest: the command is too long");
-}
-
-static bool write_manifest(const Selection *selection, const Options *options, Message *message)
-{
-    char path[PATH_MAX];
-    Manifest *manifest = memory_new(1, sizeof *manifest);
-    bool done = set_command(manifest, options, message);
-    for (int i = 0; i < selection->count && done; i++) {
-        ImageFile file = {.bytes = NULL};
-        const char *name = selection->examples[i]->name;
-        snprintf(path, sizeof path, "%s/%s.png", options->output, name);
-        done =
-            image_file_read(&file, path, message) && manifest_add(manifest, name, &file, message);
-        image_file_close(&file);
-    }
-    snprintf(path, sizeof path, "%s/manifest.txt", options->output);
-    done = done && manifest_write(manifest, path, message);
-    free(manifest);
-    return done;
-}
-
 /* What a gallery has besides its pictures. */
 static bool write_rest(const Selection *selection, const Options *options, Image *sheet,
                        Message *message)
 {
     sheet_label(sheet, selection->examples, selection->count);
     return write_sheet(sheet, options, message) &&
-           write_page(options->output, selection, options, message) &&
-           (!with_manifest || write_manifest(selection, options, message));
+           write_page(options->output, selection, options, message);
 }
 
 static bool open_canvas(Canvas *canvas, const Options *options, Message *message)
@@ -328,57 +293,6 @@ static bool write_gallery(const Selection *selection, const Options *options, Me
     return done;
 }
 
-/* Draws a picture and compares it; MANIFEST_FAILED: a message. Prints what is not the same. */
-static ManifestResult verify_one(const ManifestEntry *entry, Picture *picture, Message *message)
-{
-    ImageFile file = {.bytes = NULL};
-    ManifestResult result = MANIFEST_FAILED;
-    if (picture_encode(picture, &file, message))
-        result = manifest_compare(entry, &file, message);
-    image_file_close(&file);
-    if (result == MANIFEST_PIXELS)
-        printf("%s: the same pixels; the file says other things of itself\n", entry->name);
-    else if (result == MANIFEST_DIFFERENT)
-        printf("%s: other pixels; --verify of the folder of the earlier pictures says which, and "
-               "whether by rounding\n",
-               entry->name);
-    return result;
-}
-
-/* --verify; *code is EXIT_FAILED if pixels differ. */
-static bool verify(const Manifest *manifest, const Selection *selection, const Options *options,
-                   int *code, Message *message)
-{
-    Canvas canvas = {0};
-    int counts[MANIFEST_FAILED] = {0};
-    Picture *picture = memory_new(1, sizeof *picture);
-    bool done = open_canvas(&canvas, options, message);
-    for (int i = 0; i < selection->count && done; i++) {
-        const Example *example = selection->examples[i];
-        ManifestResult result = MANIFEST_FAILED;
-        if (draw_one(example, &canvas, options, picture, NULL, message))
-            result = verify_one(manifest_find(manifest, example->name), picture, message);
-        done = result != MANIFEST_FAILED;
-        if (done)
-            counts[result]++;
-    }
-    if (done)
-        printf("%d of %d pictures are the same; %d have the same pixels, %d differ\n",
-               counts[MANIFEST_SAME], selection->count, counts[MANIFEST_PIXELS],
-               counts[MANIFEST_DIFFERENT]);
-    *code = counts[MANIFEST_DIFFERENT] ? EXIT_FAILED : 0;
-    canvas_close(&canvas);
-    image_close(&picture->image);
-    free(picture);
-    return done;
-}
-
-static bool is_folder(const char *path)
-{
-    struct stat is;
-    return stat(path, &is) == 0 && S_ISDIR(is.st_mode);
-}
-
 static bool judge(Regression *regression, RegressionPicture *of, Canvas *canvas,
                   const Options *options, Message *message)
 {
@@ -392,9 +306,8 @@ static bool judge(Regression *regression, RegressionPicture *of, Canvas *canvas,
            regression_judge(regression, of, message);
 }
 
-/* --verify DIR; *code is EXIT_FAILED if a pixel cannot be. */
-static bool verify_folder(const Selection *selection, const Options *options, int *code,
-                          Message *message)
+/* --verify; *code is EXIT_FAILED if a pixel cannot be. */
+static bool verify(const Selection *selection, const Options *options, int *code, Message *message)
 {
     Regression *regression;
     Canvas canvas = {0};
@@ -420,45 +333,17 @@ static bool verify_folder(const Selection *selection, const Options *options, in
     return done;
 }
 
-/* Reads the manifest, and selects what is in it and is named. */
-static bool select_verified(Manifest *manifest, Selection *selection, const Options *options,
-                            Message *message)
-{
-    Manifest now = {.count = 0};
-    char *names[MANIFEST_MAX + 1] = {NULL};
-    if (!manifest_read(manifest, verified, message) || !set_command(&now, options, message))
-        return false;
-    if (strcmp(manifest->command, now.command) != 0)
-        return message_set(message, "--verify %s: is of the command: %s; give its options",
-                           verified, manifest->command);
-    for (int i = 0; i < manifest->count; i++)
-        names[i] = manifest->entries[i].name;
-    const bool some = options->names[0] || with_lecture;
-    if (!select_examples(selection, some ? options->names : names, message))
-        return false;
-    for (int i = 0; i < selection->count; i++)
-        if (!manifest_find(manifest, selection->examples[i]->name))
-            return message_set(message, "--verify %s: has no picture of %s", verified,
-                               selection->examples[i]->name);
-    return true;
-}
-
 static bool check(const Options *options, Message *message)
 {
-    if (verified && is_folder(verified))
-        return (!with_manifest && !options->part.count && !options->merge &&
-                !options->shaders.print) ||
-               message_set(message,
-                           "--verify %s: leave out --manifest, --part, --merge and "
+    if (verified &&
+        (keeps_shaders || options->part.count || options->merge || options->shaders.print))
+        return message_set(message,
+                           "--verify %s: leave out --keep-shaders, --part, --merge and "
                            "--print-shader",
                            verified);
-    if (verified && (options->output_given || with_manifest || options->part.count ||
-                     options->merge || options->shaders.print))
-        return message_set(message, "--verify: writes nothing; leave out --output, --manifest, "
-                                    "--part, --merge and --print-shader");
-    if (with_manifest && options->part.count)
-        return message_set(message, "--manifest: needs all pictures; give it with --merge");
-    return (!verified && !with_manifest) || manifest_possible(message);
+    return !keeps_shaders || (!options->part.count && !options->merge) ||
+           message_set(message, "--keep-shaders: goes with neither --part nor --merge, which reads "
+                                "no shaders");
 }
 
 /* Of all examples, those of --part. */
@@ -477,17 +362,12 @@ int main(int argc, char *argv[])
     int code;
     Message message = {0};
     Selection selection = {.count = 0};
-    static Manifest manifest;
     if (!options_begin(&options, &GALLERY, argc, argv, &code))
         return code;
-    const bool folder = verified && is_folder(verified);
-    if (!check(&options, &message) ||
-        !(verified && !folder ? select_verified(&manifest, &selection, &options, &message)
-                              : select_examples(&selection, options.names, &message)))
+    if (!check(&options, &message) || !select_examples(&selection, options.names, &message))
         return options_fail(GALLERY.name, &message, EXIT_USAGE);
     select_part(&selection, options.part);
-    if (!(folder          ? verify_folder(&selection, &options, &code, &message)
-          : verified      ? verify(&manifest, &selection, &options, &code, &message)
+    if (!(verified        ? verify(&selection, &options, &code, &message)
           : options.merge ? merge_gallery(&selection, &options, &message)
                           : write_gallery(&selection, &options, &message)))
         return options_fail(GALLERY.name, &message, EXIT_FAILED);

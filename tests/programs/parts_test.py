@@ -1,15 +1,13 @@
 #!/usr/bin/env python3
-"""Films and galleries made by several processes, and galleries compared with a manifest.
+"""Films and galleries made by several processes.
 
 usage: parts_test.py EXAMPLES_FOLDER_OF_THE_BUILD SOURCE_FOLDER [unittest's arguments]
 
 What the parts make together has the bytes of one run, also if they are killed and run again.
 """
 import filecmp
-import hashlib
 import os
 import random
-import re
 import shutil
 import subprocess
 import sys
@@ -238,13 +236,12 @@ class Galleries(Parts):
 
     def test_parts_make_the_gallery_of_one_run_after_kills(self):
         command = [os.path.join(base.EXAMPLES, "gallery"), *base.SMALL, *SOME, "-o", "parts"]
-        self.gallery(*SOME, "-o", "one", *(("--manifest",) if self.hashes() else ()))
+        self.gallery(*SOME, "-o", "one")
         self.killed(100 if base.LONG else 3, 2, command)
         self.assert_whole("parts.parts")
         self.assertNotIn("parts", os.listdir(self.folder))
-        self.gallery(*SOME, "-o", "parts", "--merge", *(("--manifest",) if self.hashes() else ()))
-        names = set(os.listdir(self.path("one"))) - {"shaders"}  # --merge draws nothing, and reads none
-        self.assertEqual(filecmp.cmpfiles(self.path("one"), self.path("parts"), names, False)[1:],
+        self.gallery(*SOME, "-o", "parts", "--merge")
+        self.assertEqual(filecmp.cmpfiles(self.path("one"), self.path("parts"), os.listdir(self.path("one")), False)[1:],
                          ([], []))
 
     def test_merging_what_is_not_there_fails(self):
@@ -266,65 +263,6 @@ class Galleries(Parts):
         self.assertNotIn("g", os.listdir(self.folder))
         self.gallery(*draw, "--part", "1/2")
         self.gallery(*draw, "--merge")
-
-    def hashes(self):
-        result = self.run_it("LightedCube", *base.SMALL, "--manifest", "-o", "probe",
-                             program="gallery")
-        shutil.rmtree(self.path("probe"), ignore_errors=True)
-        if result.returncode:
-            self.assertIn(b"libgcrypt20-dev", result.stderr)
-        return not result.returncode
-
-    def test_a_manifest_is_verified(self):
-        if not self.hashes():
-            self.skipTest("built without libgcrypt")
-        self.gallery(*SOME, "-o", "g", "--manifest")
-        lines = self.read("g/manifest.txt").decode().splitlines()
-        self.assertEqual(lines[0], "# gallery --size 40x40")
-        names = [line.split("  ")[1] for line in lines[1::2]]
-        self.assertEqual(set(names), {name + ".png" for name in SOME})
-        for line in lines[1::2]:
-            digest, name = line.split("  ")
-            self.assertEqual(hashlib.sha256(self.read("g/" + name)).hexdigest(), digest)
-        before = self.everything()
-        verify = (*base.SMALL, "--verify", "g/manifest.txt")
-        self.assertEqual(self.good(*verify, program="gallery").decode(),
-                         "3 of 3 pictures are the same; 0 have the same pixels, 0 differ\n")
-        self.assertEqual(self.everything(), before)
-
-        # A manifest of another picture.
-        was = hashlib.sha256(self.read("g/Materials.png")).hexdigest()
-        text = self.read("g/manifest.txt").decode()
-        self.make("g/manifest.txt", re.sub(f"{was}(.*\n# pixels ).*", rf"{'1' * 64}\g<1>{'0' * 64}", text))
-        said = self.run_it(*verify, "Materials", program="gallery")
-        self.assertEqual((said.returncode, said.stderr), (1, b""))
-        self.assertRegex(said.stdout.decode(), "^Materials: other pixels; .*\n0 of 1 ")
-        # Only what the file says, its compression, differs.
-        self.make("g/manifest.txt", text.replace(was, "0" * 64))
-        self.assertRegex(self.good(*verify, "Materials", program="gallery").decode(),
-                         "^Materials: the same pixels; .*\n0 of 1 .*; 1 have the same pixels, 0 ")
-
-    def test_bad_manifests_and_options_are_refused(self):
-        if not self.hashes():
-            self.skipTest("built without libgcrypt")
-        self.gallery("LightedCube", "-o", "g", "--manifest")
-        text = self.read("g/manifest.txt")
-        for said, *arguments in (
-                (r"--verify g/manifest.txt: is of the command: gallery --size 40x40; give",
-                 "--verify", "g/manifest.txt"),
-                ("--verify g/manifest.txt: has no picture of Materials", *base.SMALL, "--verify",
-                 "g/manifest.txt", "Materials"),
-                ("--verify g/manifest.txt: has no picture of LightedCube_animation", *base.SMALL, "--verify",
-                 "g/manifest.txt", "--lecture"),
-                ("none: cannot read", "--verify", "none"),
-                ("--verify: writes nothing", "--verify", "g/manifest.txt", "-o", "h"),
-                ("--manifest: needs all pictures", "--manifest", "--part", "1/2")):
-            self.wrong(2, said, *arguments, program="gallery")
-        for content in (b"", b"\0", text[:-1], text[:100], text + text, text + b"x\n",
-                        text.replace(b"Light", b"/x/yz"), b"# " + b"x" * 5000, text[21:]):
-            self.make("bad", content)
-            self.wrong(2, r"bad: line \d+: is no line of a manifest|--verify bad: is of the command"
-                          r"|bad: line 0", *base.SMALL, "--verify", "bad", program="gallery")
 
 
 if __name__ == "__main__":

@@ -36,7 +36,7 @@ class Regression(base.Case):
                 self.assertTrue(self.png(f"report/{line.partition(':')[0]}-difference.png").pixels)
 
     def test_a_mistake_is_named_with_its_line(self):
-        self.gallery(*NAMES[1:], "-o", "before", "--manifest")
+        self.gallery(*NAMES[1:], "-o", "before", "--keep-shaders")
         # Mistakes of the labs, each of more than two steps of 1/255.
         for name, was, now, variable in (
                 ("PointLightedSphere_perFragment.frag", "normalize(v_Normal)", "v_Normal", "normal"),
@@ -61,8 +61,10 @@ class Regression(base.Case):
         os.mkdir(self.path("empty"))
         self.refused(1, "^gallery: empty: has no picture of a program", "--verify", "empty", program="gallery")
         self.refused(1, "^gallery: before: has the earlier pictures", "--verify", "before", "-o", "before", program="gallery")
-        self.refused(2, "^gallery: --verify before: leave out", "--verify", "before", "--manifest", program="gallery")
+        self.refused(2, "^gallery: --verify before: leave out", "--verify", "before", "--keep-shaders", program="gallery")
         self.refused(1, "ShininessRow.png", "--verify", "before", "ShininessRow", program="gallery")
+        self.refused(1, "^gallery: none: has no picture of a program", "--verify", "none", program="gallery")
+        self.refused(2, "^gallery: --keep-shaders: goes with neither", "--keep-shaders", "--part", "1/2", program="gallery")
 
 
 if __name__ == "__main__":
