@@ -7,6 +7,7 @@
 
 void table_open(Table *table, const char *head)
 {
+    table->last_left = false;
     output_text_open(&table->rows);
     table_row(table, "%s", head);
 }
@@ -42,12 +43,15 @@ static void put_markdown(const char *row, bool head, FILE *file)
     fputs(head ? "|\n" : "", file);
 }
 
-static void put_aligned(const char *row, const int widths[TABLE_MAX_COLUMNS], FILE *file)
+static void put_aligned(const char *row, const int widths[TABLE_MAX_COLUMNS], bool last_left,
+                        FILE *file)
 {
     int column = 0;
-    for (const char *cell = row; cell; cell = next_cell(cell), column++)
-        fprintf(file, "%s%*.*s", column ? "  " : "", column ? widths[column] : -widths[0],
-                cell_width(cell), cell);
+    for (const char *cell = row; cell; cell = next_cell(cell), column++) {
+        const int right = last_left && !next_cell(cell) ? 0 : widths[column];
+        fprintf(file, "%s%*.*s", column ? "  " : "", column ? right : -widths[0], cell_width(cell),
+                cell);
+    }
     fputc('\n', file);
 }
 
@@ -64,7 +68,7 @@ void table_close(Table *table, bool markdown, FILE *file)
         if (markdown)
             put_markdown(row, row == text, file);
         else
-            put_aligned(row, widths, file);
+            put_aligned(row, widths, table->last_left, file);
     }
     free(text);
 }

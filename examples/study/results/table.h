@@ -11,6 +11,7 @@ enum { TABLE_MAX_COLUMNS = 16 };
 
 typedef struct Table {
     OutputText rows; /* so far */
+    bool last_left;  /* the last column is aligned to the left, too */
 } Table;
 
 /* A row is text with '|' between its cells; `head` is the first. The first column is aligned to the
