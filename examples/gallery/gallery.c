@@ -1,9 +1,9 @@
 /*
  * gallery: every example's picture from one process and one context.
  *
- * Also writes a contact sheet, and index.html with each picture, its summary and its command. Other
- * threads encode a picture while the next is drawn. Several processes draw a part each, and a last
- * one the rest; --verify compares with an earlier gallery.
+ * Also writes index.html with each picture, its summary and its command. Other threads encode a
+ * picture while the next is drawn. Several processes draw a part each, and a last one the rest;
+ * --verify compares with an earlier gallery.
  */
 #include "app/command.h"
 #include "app/options.h"
@@ -19,7 +19,6 @@
 #include "core/shader_files.h"
 #include "web/all_examples.h"
 #include "gallery/regression.h"
-#include "gallery/sheet.h"
 #include "window/backends.h"
 
 #include <stdio.h>
@@ -46,8 +45,7 @@ static const Parameter parameters[] = {
 
 static const Usage GALLERY = {
     .name = "gallery",
-    .summary =
-        "draws all programs, those named, or the lecture's, with a contact sheet and an HTML page",
+    .summary = "draws all programs, those named, or the lecture's, with an HTML page",
     .gallery = true,
     .parameters = parameters,
 };
@@ -173,7 +171,7 @@ static void set_path(Picture *picture, const Example *example, const Options *op
 }
 
 static bool draw_all(const Selection *selection, Canvas *canvas, const Options *options,
-                     Image *sheet, Message *message)
+                     Message *message)
 {
     PictureQueue *queue;
     Progress progress = progress_start("gallery");
@@ -187,10 +185,8 @@ static bool draw_all(const Selection *selection, Canvas *canvas, const Options *
         const Example *example = selection->examples[i];
         Picture *picture = picture_queue_take(queue);
         set_path(picture, example, options);
-        done = draw_one(example, canvas, options, picture, NULL, message);
-        if (done && sheet->pixels)
-            sheet_put(sheet, i, &picture->image);
-        done = done && picture_queue_give(queue, picture, message);
+        done = draw_one(example, canvas, options, picture, NULL, message) &&
+               picture_queue_give(queue, picture, message);
         if (options->verbose)
             fprintf(stderr, "%s took %.1f ms\n", example->name, 1e3 * (clock_now() - start));
         progress_update(&progress, i + 1, selection->count);
@@ -199,9 +195,9 @@ static bool draw_all(const Selection *selection, Canvas *canvas, const Options *
     return picture_queue_close(queue, message) && done;
 }
 
-/* --merge: the pictures that the parts have drawn, to the folder and onto the sheet, or only
- * checked so that a failure leaves no half gallery. */
-static bool read_all(const Selection *selection, const Options *options, bool checks, Image *sheet,
+/* --merge: the pictures that the parts have drawn, to the folder, or only checked so that a failure
+ * leaves no half gallery. */
+static bool read_all(const Selection *selection, const Options *options, bool checks,
                      Message *message)
 {
     const CanvasBackend *given = options->canvas.backend;
@@ -220,7 +216,6 @@ static bool read_all(const Selection *selection, const Options *options, bool ch
         done = picture_texts_check(picture, &origins[!example_kind(example)->without_gl], message);
         if (!done || checks)
             continue;
-        sheet_put(sheet, i, &picture->image);
         set_path(picture, example, options);
         picture->sources[0] = '\0';
         done = picture_write(picture, message);
@@ -228,23 +223,6 @@ static bool read_all(const Selection *selection, const Options *options, bool ch
     image_close(&picture->image);
     free(picture);
     return done;
-}
-
-static bool write_sheet(const Image *sheet, const Options *options, Message *message)
-{
-    char path[PATH_MAX];
-    const ImageOptions image_options = {.compress = options->compress};
-    snprintf(path, sizeof path, "%s/contact-sheet.png", options->output);
-    return image_write(sheet, path, &image_options, message);
-}
-
-/* What a gallery has besides its pictures. */
-static bool write_rest(const Selection *selection, const Options *options, Image *sheet,
-                       Message *message)
-{
-    sheet_label(sheet, selection->examples, selection->count);
-    return write_sheet(sheet, options, message) &&
-           write_page(options->output, selection, options, message);
 }
 
 static bool open_canvas(Canvas *canvas, const Options *options, Message *message)
@@ -257,22 +235,15 @@ static bool open_canvas(Canvas *canvas, const Options *options, Message *message
 
 static bool merge_gallery(const Selection *selection, const Options *options, Message *message)
 {
-    Image sheet = {0};
-    const bool done = sheet_open(&sheet, selection->count, message) &&
-                      read_all(selection, options, true, &sheet, message) &&
-                      output_folder(options->output, message) &&
-                      read_all(selection, options, false, &sheet, message) &&
-                      write_rest(selection, options, &sheet, message);
-    image_close(&sheet);
-    return done;
+    return read_all(selection, options, true, message) && output_folder(options->output, message) &&
+           read_all(selection, options, false, message) &&
+           write_page(options->output, selection, options, message);
 }
 
 static bool write_gallery(const Selection *selection, const Options *options, Message *message)
 {
     Canvas canvas = {0};
     Renderer renderer;
-    Image sheet = {0};
-    const bool whole = !options->part.count;
     char folder[PATH_MAX];
     snprintf(folder, sizeof folder, "%s%s", options->output, beside(options));
     bool done = open_canvas(&canvas, options, message);
@@ -284,11 +255,8 @@ static bool write_gallery(const Selection *selection, const Options *options, Me
             renderer_close(&renderer);
     }
     if (done && !options->shaders.print)
-        done = output_folder(folder, message) &&
-               (!whole || sheet_open(&sheet, selection->count, message)) &&
-               draw_all(selection, &canvas, options, &sheet, message) &&
-               (!whole || write_rest(selection, options, &sheet, message));
-    image_close(&sheet);
+        done = output_folder(folder, message) && draw_all(selection, &canvas, options, message) &&
+               (options->part.count || write_page(folder, selection, options, message));
     canvas_close(&canvas);
     return done;
 }

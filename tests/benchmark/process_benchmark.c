@@ -97,8 +97,7 @@ static void put_gallery(Table *table, const BenchRun *runs, bool smooth)
     const BenchColumn further = {1e3 / (SCENES - 1), 1, all, one, -1, -1, false};
     table_row(table, "gallery of one over the picture, --samples %d, at most %.1f||%s", samples,
               MAX_GALLERY_OF_ONE, bench_cell(runs, &ratio).text);
-    table_row(table,
-              "each further picture, --samples %d, sheet and page included, at most %.1f ms|%s|",
+    table_row(table, "each further picture, --samples %d, page included, at most %.1f ms|%s|",
               samples, MAX_FURTHER_MS[smooth], bench_cell(runs, &further).text);
 }
 

@@ -1038,8 +1038,6 @@ class Outputs(Case):
         no_font = {"LIGHTING_FONT": "missing.ttf"}
         said = "missing.ttf: cannot read the font: .*; install the package fonts-dejavu-core$"
         self.refused(1, "^PhongBlinn: " + said, program="PhongBlinn", environment=no_font)
-        self.says(0, "^gallery: the contact sheet has no labels: " + said, "LightedCube", *SMALL,
-                  program="gallery", environment=no_font)
 
 
 class Shaders(Case):
@@ -1575,7 +1573,7 @@ class Gallery(Case):
         self.assertEqual(self.gallery(*SMALL, "-o", "pictures"), b"pictures/index.html\n")
         self.assertEqual(sorted(os.listdir(self.path("pictures"))),
                          sorted([name + ".png" for name in PROGRAMS + SCENES + DIAGRAMS] +
-                                ["contact-sheet.png", "index.html"]))
+                                ["index.html"]))
         page = self.read("pictures/index.html").decode()
         self.assertNotRegex(page, r'<img(?![^>]* alt="[A-Z]\w+: [^"]{10,}")')
         for number, program in enumerate(PROGRAMS + SCENES + DIAGRAMS):
@@ -1617,13 +1615,12 @@ class Gallery(Case):
     def test_named_programs_are_drawn_into_the_default_folder(self):
         self.gallery("PointLightedCube", *SMALL, "LightedCube")
         self.assertEqual(sorted(os.listdir(self.path("gallery"))),
-                         ["LightedCube.png", "PointLightedCube.png", "contact-sheet.png",
-                          "index.html"])
+                         ["LightedCube.png", "PointLightedCube.png", "index.html"])
 
-    def test_the_lecture_is_nine_pictures_a_sheet_and_a_page(self):
+    def test_the_lecture_is_nine_pictures_and_a_page(self):
         """In the lecture's order; also beside others that are named."""
         self.assertEqual(len(PROGRAMS), 9)
-        rest = ["contact-sheet.png", "index.html"]
+        rest = ["index.html"]
         self.assertEqual(self.gallery("--lecture", *SMALL, "-o", "nine"), b"nine/index.html\n")
         self.assertEqual(sorted(os.listdir(self.path("nine"))), sorted([name + ".png" for name in PROGRAMS] + rest))
         shown = re.findall(r'<img[^>]* src="(\w+)\.png"', self.read("nine/index.html").decode())
@@ -1832,7 +1829,7 @@ class Again(Case):
                             picture, environment)
         self.good("LightedCube", *draw[:3], "-o", "g", "Materials", program="gallery")
         self.assertEqual(set(os.listdir(self.path("g"))),
-                         {"LightedCube.png", "Materials.png", "contact-sheet.png", "index.html"})
+                         {"LightedCube.png", "Materials.png", "index.html"})
         words = self.good("-s", "9x9", "-t", "1", "-o", "-", "--deterministic", "--compress", "0")
         self.assertIn("--deterministic", self.command(words))
 
