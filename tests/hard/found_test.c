@@ -35,95 +35,6 @@ static const RandomScene STRONG_LIGHT_ASIDE = {
     .shapes[0] = {.solid = {.kind = SOLID_QUAD}, .divisions = 3},
 };
 
-/* A thousandth of a degree is visible along the edge of a cone of 90 degrees. A cosine of floats
- * has an error of about 2^-23, 1.2e-7, a sixth of a pixel here. No computation with 24 bits is
- * better, so this counts as rounding. */
-static const RandomScene CLOSE_LOOK_AT_A_CONE = {
-    .scene = {.camera = {.eye = {-3, 0, 0}, .up = {0, 1, 0}, .fovy = 0.001, .near = 0.5, .far = 1},
-              .light_count = 1,
-              .object_count = 1},
-    .lights[0] = {.kind = LIGHT_SPOT,
-                  .position = {-3, 0, 0},
-                  .direction = {0, 1, 0},
-                  .specular = {1, 0, 0},
-                  .cutoff = 90},
-    .objects[0] = {.world_from_object = {{-0.23, 0.27, 0, 0, 0, 0, 1, 0, 0.44, -0.57, 0, 0, 0.3,
-                                          -0.8, 0, 1}},
-                   .front = {.specular = {1, 0, 0}, .alpha = 1}},
-    .shapes[0] = {.solid = {.kind = SOLID_BOX, .radius = 90}, .divisions = 3},
-};
-
-/* A cone of one degree, seen from 0.0004 in front of a surface, where a pixel is 4e-6 wide. The
- * cosine of a cutoff c is rounded to 2^-24, which moves the edge by 2^-24 / sin(c) radians: 3.4e-6,
- * or 1.2e-5 at a distance of 3.4. Smaller cones are worse: the cosine of 0.02 degrees is 1 minus
- * one unit in the last place, so that cone may have any width from 0 to twice the right one. */
-static const RandomScene NARROW_CONE_SEEN_CLOSELY = {
-    .scene = {.camera = {.eye = {1, -1, 0.5},
-                         .center = {0, -0.9, -0.8},
-                         .up = {0, 0, 1},
-                         .fovy = 1,
-                         .near = 0.001,
-                         .far = 1},
-              .light_count = 1,
-              .object_count = 1,
-              .reflection = REFLECTION_PHONG},
-    .lights[0] = {.kind = LIGHT_SPOT,
-                  .position = {-0.5, -3.1, 2},
-                  .direction = {1.5, 2.1, -1.5},
-                  .specular = {0, 0, 1},
-                  .cutoff = 1,
-                  .quadratic = 7e-5},
-    .objects[0] = {.world_from_object = {{1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, -0.9996, 0, 1}},
-                   .front = {.specular = {0, 0, 1}, .alpha = 1, .shininess = 1}},
-    .shapes[0] = {.solid = {.kind = SOLID_QUAD}, .divisions = 3},
-};
-
-/* Vertex colors, a triangle no wider than a pixel, and sRGB, which is up to 13 times as steep as
- * linear colors: the driver rounds each corner to 1/256 of a pixel, which changes the color here by
- * most of a step. */
-static const RandomScene SMALL_TRIANGLES_IN_THE_DARK = {
-    .scene = {.camera = {.eye = {1.295441, 2.336, 4.646332},
-                         .center = {0, -0.118042, 0.2866},
-                         .up = {-0.4173211, 0.4069502, -0.8126},
-                         .fovy = 36.3643,
-                         .near = 1,
-                         .far = 30},
-              .light_count = 1,
-              .object_count = 1,
-              .interpolation = INTERPOLATION_GOURAUD,
-              .linear = true},
-    .lights[0] = {.kind = LIGHT_DIRECTIONAL, .direction = {0, -0.8, 0}, .diffuse = {0, 1, 0}},
-    .objects[0] = {.world_from_object = {{0.35, 0, -0.0457, 0, -0.1985, -0.1885, 0.5531, 0, -0.47,
-                                          -0.298, -0.2717, 0, -1.116834, 1.045218, 1.022357, 1}},
-                   .front = {.diffuse = {0, 1, 0}, .alpha = 1}},
-    .shapes[0] = {.solid = {.kind = SOLID_TORUS, .radius = 1, .tube = 0.375}, .divisions = 24},
-};
-
-/* A corner coincides with the light up to a rounding of 1e-7. That rounding decides whether the
- * corner is in the cone, and with it the color of the whole triangle; as above, it counts as
- * rounding. */
-static const RandomScene CORNER_ON_A_SPOT = {
-    .scene = {.camera = {.eye = {-4.595986, 0, 0.06298793},
-                         .center = {1, -0.2606417, 0.3246102},
-                         .up = {0, 0, 1},
-                         .fovy = 30,
-                         .near = 1,
-                         .far = 30},
-              .light_count = 1,
-              .object_count = 1,
-              .interpolation = INTERPOLATION_FLAT},
-    .lights[0] = {.kind = LIGHT_SPOT,
-                  .position = {-0.2097941, -0.567428, -0.3658021},
-                  .direction = {2, -3, 0},
-                  .ambient = {0, 0, 1},
-                  .cutoff = 60},
-    .objects[0] = {.world_from_object = {{-0.4578859, -0.6577167, 0.5632253, 0, -0.5653535,
-                                          0.8837304, 0.07307, 0, -0.7815227, -0.0503656, -0.6941708,
-                                          0, 0.8321857, -0.6688385, -0.3323879, 1}},
-                   .front = {.ambient = {0, 0, 1}, .alpha = 1}},
-    .shapes[0] = {.form = FORM_TETRAHEDRON, .solid = {.radius = 1}, .divisions = 3},
-};
-
 /* A constant attenuation is part of the colors. 1 / 2e-308 is infinite as a float, and infinity
  * times 0 is NaN. */
 static const RandomScene MIN_CONSTANT_ATTENUATION = {
@@ -186,10 +97,6 @@ typedef struct Found {
 static const Found FOUND_SCENES[] = {
     {"SHININESS_NEXT_TO_0", &SHININESS_NEXT_TO_0, 0.1},
     {"STRONG_LIGHT_ASIDE", &STRONG_LIGHT_ASIDE, 0.1},
-    {"CLOSE_LOOK_AT_A_CONE", &CLOSE_LOOK_AT_A_CONE, 0.1},
-    {"NARROW_CONE_SEEN_CLOSELY", &NARROW_CONE_SEEN_CLOSELY, 0.1},
-    {"SMALL_TRIANGLES_IN_THE_DARK", &SMALL_TRIANGLES_IN_THE_DARK, 0.5},
-    {"CORNER_ON_A_SPOT", &CORNER_ON_A_SPOT, 0.1},
     {"CORNERS_FAR_AWAY", &CORNERS_FAR_AWAY, 255},
     {"CORNERS_TOO_FAR_AWAY", &CORNERS_TOO_FAR_AWAY, 255},
     {"MIN_CONSTANT_ATTENUATION", &MIN_CONSTANT_ATTENUATION, 0.1},
