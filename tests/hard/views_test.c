@@ -1,6 +1,6 @@
 /*
  * Hard cases of views and projections: degenerate and nearly degenerate cameras, projections out of
- * range or without a far plane, surfaces close behind one another, and scenes far from the origin.
+ * range or without a far plane, and scenes far from the origin.
  */
 #include "hard/hard.h"
 #include "shapes/mesh_solids.h"
@@ -113,83 +113,6 @@ TEST(perspective_infinite_far_draws_the_same_picture)
         if (i > 0 && (apart(&frame, &first, &exact, &edges) > 1 || edges > 4))
             fail_msg("far %g: another picture", fars[i]);
     }
-}
-
-/* Depth. */
-
-/* Two squares, facing the eye or tilted, the green one farther by `gap` along the view; `order`
- * says which is drawn first. */
-static void make_squares(HardWorld *world, double distance, double tilt, double near, double gap,
-                         int order)
-{
-    make_world(world);
-    const Mat4 turned = mat4_rotate(tilt, (Vec3){0.6, 0.8, 0});
-    world->scene.camera = (Camera){{0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 40, near, 1000 * distance, 0};
-    world->scene.light_count = 0;
-    for (int i = 0; i < 2; i++) {
-        const Vec3 place = {0, 0, -distance - (i == order ? 0 : gap)};
-        world->objects[i] = (Object){
-            .mesh = &quad,
-            .flat = true,
-            .world_from_object = mat4_product(
-                mat4_translate(place),
-                mat4_product(turned, mat4_scale((Vec3){distance / 4, distance / 4, distance / 4}))),
-            .front = {.alpha = 1, .emission = {i == order, i != order, 0}},
-        };
-    }
-}
-
-/* Counts the pixels of the green square where the red one should be. */
-static int count_wrong(const HardWorld *world)
-{
-    Reference exact;
-    int wrong = 0;
-    hard_exact(&world->scene, &exact);
-    assert_true(hard_draw(&world->scene, HARD_HIGHP, &exact).not_finite == 0);
-    for (int i = 0; i < SIZE * SIZE; i++) {
-        const unsigned char *byte = (const unsigned char *)hard.image.pixels + 4 * i;
-        wrong += exact.interior[i] && exact.color[3 * i] == 1 && byte[1] != 0;
-    }
-    reference_close(&exact);
-    return wrong;
-}
-
-TEST(depth_fighting_ends_at_five_steps)
-{
-    static const double distances[] = {2, 10, 70, 300}, nears[] = {0.01, 0.1, 1};
-    for (int d = 0; d < 4; d++) {
-        for (int n = 0; n < 3; n++) {
-            for (int k = 0; k < 4; k++) {
-                HardWorld world;
-                const double z = distances[d], near = nears[n];
-                const double gap = 5 * z * z / (near * 0x1p24);
-                if (gap > 0.1 * z) /* far enough apart */
-                    continue;
-                /* Of a tilted square the farthest corner counts: it is farther by sin(60 degrees)
-                 * sqrt(2) / 4. */
-                const double tilt = k < 2 ? 0 : 60, farther = 1 + 0.31 * (k >= 2);
-                make_squares(&world, z, tilt, near, gap * farther * farther, k % 2);
-                const int wrong = count_wrong(&world);
-                if (wrong)
-                    fail_msg("at %g, near %g, %g degrees: %d pixels wrong", z, near, tilt, wrong);
-            }
-        }
-    }
-}
-
-/* The limit of a depth buffer of 24 bits: depth is (1 - near / z) / (1 - near / far) in steps of
- * 2^-24, so a step is z^2 / (near 2^24) long. Surfaces that are much closer together have the same
- * depth, and the one that is drawn first stays. (Measured on llvmpipe: facing squares are
- * distinguished from 1 step on, tilted ones from 1.6.) Moving the near plane towards the scene
- * shortens the step by the same factor. */
-TEST(a_fitted_near_plane_ends_depth_fighting)
-{
-    HardWorld world;
-    const double z = 100, step = z * z / (0.01 * 0x1p24);
-    make_squares(&world, z, 0, 0.01, step / 64, 1);
-    print_message("1/64 of a step apart: %d pixels wrong\n", count_wrong(&world));
-    make_squares(&world, z, 0, 50, step / 64, 1);
-    assert_int_equal(count_wrong(&world), 0);
 }
 
 /* The world far away. */
