@@ -109,7 +109,7 @@ static void make_details(void)
     fprintf(file,
             "\nThe folder has results.csv, one line per scene and setting, from which an\n"
             "interrupted run continues; table.txt; and for each scene a plot of error over\n"
-            "time and sheets of drawn, exact and difference; index.html has all.\n"
+            "time and sheets of drawn, exact and difference; index.html shows them.\n"
             "Prints the conclusions; with --verbose also the tables of efficient settings.\n"
             "\nTry:  accuracy --quick\n"
             "      accuracy --scene shiny32 --budget 2\n"

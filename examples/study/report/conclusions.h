@@ -72,8 +72,8 @@ void findings_matrices(const Results *results, bool markdown, FILE *file);
 void findings_tables(const Results *results, FILE *file);
 
 /* FOLDER/index.html: for each scene, by its number, a sentence and its plot; then the conclusions,
- * the plots of findings, and tables of efficient settings. Plots and sheets are linked if they are
- * in the folder. */
+ * and the plots of findings. Plots and sheets are linked if they are in the folder, and all tables.
+ */
 bool report_page(const Results *results, const int *scenes, int count,
                  const Conclusions *conclusions, const char *folder, Message *message);
 

@@ -112,30 +112,6 @@ static void set_findings(TemplateValues *page, const Conclusions *conclusions, c
     }
 }
 
-/* The efficient settings. */
-static void set_table(TemplateValues *page, const Results *results, const char *scene)
-{
-    Front front;
-    front_open(&front, results, scene, ERROR_INTERIOR_MAXIMUM);
-    TemplateValues *table = template_add(page, front.busy ? "untold" : "table");
-    template_set(table, "scene", "%s", scene);
-    for (int i = 0; i < front.count; i++) {
-        const ResultRow *row = front.rows[i];
-        TemplateValues *values = template_add(table, "row");
-        char setting[QUALITY_TEXT_SIZE];
-        quality_text(&row->quality, setting);
-        template_set(values, "time", "%.2f", row->time);
-        template_set(values, "lower", "%.2f", row->time_lower);
-        template_set(values, "upper", "%.2f", row->time_upper);
-        template_set(values, "maximum", "%.2f", row->interior_maximum);
-        template_set(values, "rms", "%.2f", row->interior_rms);
-        template_set(values, "all", "%.2f", row->all_rms);
-        template_set(values, "noise", "%.0f", 100 * row->noise);
-        template_set(values, "setting", "%s", setting);
-    }
-    front_close(&front);
-}
-
 bool report_page(const Results *results, const int *scenes, int count,
                  const Conclusions *conclusions, const char *folder, Message *message)
 {
@@ -149,9 +125,6 @@ bool report_page(const Results *results, const int *scenes, int count,
             template_add(scene, "measured");
     }
     set_findings(page, conclusions, folder);
-    for (int i = 0; i < count; i++)
-        if (isfinite(front_noise(results, STUDY_SCENES[scenes[i]].name)))
-            set_table(page, results, STUDY_SCENES[scenes[i]].name);
     const bool done = output_path(path, folder, "index.html", message) &&
                       template_write(TEMPLATE, page, path, message);
     template_close(page);
