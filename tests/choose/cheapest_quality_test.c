@@ -37,41 +37,24 @@ static double between(double min, double max)
 static const char *const MODELS[] = {"ball.obj", "facets.obj", "bent.obj"};
 enum { MODEL_COUNT = sizeof MODELS / sizeof MODELS[0] };
 
-/* A corner of a triangle; its normal is the number `normal`, of the corner itself if that is 0. */
-static void corner(FILE *file, int number, int normal)
-{
-    fprintf(file, " %d//%d", number, normal ? normal : number);
-}
-
 /* A sphere of 8 x 4, with normals of the sphere or of its faces, wound the other way then. */
 static void write_ball(const char *name, bool facets)
 {
+    CLOSED(mesh_close) Mesh mesh;
     FILE *file = fopen(name, "w");
-    int normals = 0;
     assert_non_null(file);
-    for (int stack = 0; stack <= 4; stack++)
-        for (int slice = 0; slice < 8; slice++) {
-            const double a = acos(-1) * stack / 4, b = acos(-1) * slice / 4;
-            fprintf(file, "v %.6f %.6f %.6f\n", sin(a) * sin(b), cos(a), sin(a) * cos(b));
-            if (!facets)
-                fprintf(file, "vn %.6f %.6f %.6f\n", sin(a) * sin(b), cos(a), sin(a) * cos(b));
-        }
-    for (int stack = 0; stack < 4; stack++)
-        for (int slice = 0; slice < 8; slice++) {
-            const double a = acos(-1) * (stack + 0.5) / 4, b = acos(-1) * (slice + 0.5) / 4;
-            const int p = 8 * stack + slice + 1, q = 8 * stack + (slice + 1) % 8 + 1;
-            if (facets) {
-                fprintf(file, "vn %.6f %.6f %.6f\n", sin(a) * sin(b), cos(a), sin(a) * cos(b));
-                normals++;
-            }
-            const int triangles[2][3] = {{p, p + 8, q + 8}, {p, q + 8, q}};
-            for (int i = stack == 3; i < 1 + (stack > 0); i++) {
-                fprintf(file, "f");
-                for (int k = 0; k < 3; k++)
-                    corner(file, triangles[i][facets ? 2 - k : k], normals);
-                fprintf(file, "\n");
-            }
-        }
+    SUCCEEDS(mesh_sphere(&mesh, 1, 8, 4, message) && (!facets || mesh_flatten(&mesh, message)));
+    for (size_t i = 0; i < mesh.vertex_count; i++) {
+        const Vec3 p = vec3_from_float(mesh.vertices[i].position);
+        const Vec3 n = vec3_from_float(mesh.vertices[i].normal);
+        fprintf(file, "v %.6f %.6f %.6f\nvn %.6f %.6f %.6f\n", p.x, p.y, p.z, n.x, n.y, n.z);
+    }
+    for (size_t i = 0; i < mesh.index_count; i += 3) {
+        const uint32_t *corner = &mesh.indices[i];
+        const uint32_t a = corner[facets ? 2 : 0] + 1, b = corner[1] + 1,
+                       c = corner[facets ? 0 : 2] + 1;
+        fprintf(file, "f %u//%u %u//%u %u//%u\n", a, a, b, b, c, c);
+    }
     fclose(file);
 }
 
