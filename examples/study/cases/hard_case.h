@@ -16,11 +16,25 @@ typedef struct HardScene {
     Mesh floor;                          /* may be empty */
 } HardScene;
 
+typedef enum HardShape { HARD_SPHERE, HARD_TEAPOT, HARD_QUAD, HARD_CUBE, HARD_RING } HardShape;
+
+typedef struct HardBox {
+    Vec3 at, size;
+} HardBox;
+
 typedef struct HardCase {
     const char *name;           /* "mirror" */
     const char *what;           /* at most 62 characters */
     const char *naive, *stable; /* the two forms, at most 24 characters */
-    bool (*make)(HardScene *made, Message *message);
+    /* One object at the origin, scaled, in a point light; what is zero is as usual, or not there.
+     */
+    HardShape shape; /* zeroed: a sphere */
+    double size;
+    int slices, stacks; /* of the sphere */
+    Vec3 scale, light;
+    double fovy, floor;            /* the height of a floor that has shadows */
+    HardBox boxes[2];              /* the object's place and size, and another's */
+    void (*make)(HardScene *made); /* what else there is; may be NULL */
     /* How the plain formula differs; NULL: not in this. */
     void (*spoil)(HardScene *made);
     ShaderReplacement replaced[3]; /* ended by a NULL name. Timed with the first only: the second
