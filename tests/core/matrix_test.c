@@ -357,16 +357,6 @@ TEST_WITH(0, normalize_works_at_any_finite_length, start_random, NULL)
 
 /* Simple matrices */
 
-TEST_WITH(0, identity_translate_and_scale_are_stored_column_after_column, start_random, NULL)
-{
-    const Mat4 identity = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
-    const Mat4 translate = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 2, 3, 4, 1}};
-    const Mat4 scale = {{2, 0, 0, 0, 0, 3, 0, 0, 0, 0, 4, 0, 0, 0, 0, 1}};
-    assert_matrix(mat4_identity(), identity, 0);
-    assert_matrix(mat4_translate((Vec3){2, 3, 4}), translate, 0);
-    assert_matrix(mat4_scale((Vec3){2, 3, 4}), scale, 0);
-}
-
 TEST_WITH(0, product_agrees_with_its_definition, start_random, NULL)
 {
     for (int i = 0; i < 20000; i++) {
