@@ -228,27 +228,40 @@ SHADER_TEST(line_ends_and_a_byte_order_mark_make_no_difference)
     becomes("// h\xC3\xA9llo\n\tint a;\f\n", "// h\xC3\xA9llo\n\tint a;\f\n");
 }
 
-SHADER_TEST(bytes_that_are_not_text_are_refused_with_their_line)
+/* In the file that is asked for and in one that it includes. */
+SHADER_TEST(what_no_file_may_have_is_refused_with_its_line)
 {
+    static const struct {
+        const char *place, *said, *texts[8];
+    } cases[] = {
+        {"./part.glsl:3: ", "byte 0x1B", {"int a;\r\n\r\nint \x1B[31m;\n"}},
+        {"./part.glsl:1: ", "byte 0x7F", {"\x7F"}},
+        {"./part.glsl:2: ", "byte 0x1A: the file is not text", {"\x89PNG\r\n\x1A\n"}},
+        {"./part.glsl:1: ", "the file is empty", {"", "\n", " \t\r\n\r\n", "\xEF\xBB\xBF"}},
+        {"./part.glsl:1: ",
+         "only #version 100",
+         {"#version 300 es", "#version 110", "#version 1000", "#version", "#version es",
+          "# version 99"}},
+        {"./part.glsl:2: ",
+         "#include needs a file's name in double quotes",
+         {"\n#include", "\n#include a.glsl", "\n#include <a.glsl>", "\n#include \"",
+          "\n#include \"\"", "\n#include \"a.glsl", "\n#include 'a.glsl'"}},
+        {"./part.glsl:2: sub/nope.glsl: no such shader file",
+         "\n  tried ./sub/nope.glsl",
+         {"int a;\n#include \"sub/nope.glsl\"\n"}},
+        {"./part.glsl:1: ./folder.glsl: is not a regular file", "", {"#include \"folder.glsl\"\n"}},
+    };
+    assert_int_equal(mkdir("folder.glsl", 0777), 0);
+    make("main.vert", "int a;\n#include \"part.glsl\"\n");
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        for (const char *const *text = cases[i].texts; *text; text++) {
+            make("part.glsl", *text);
+            refused_at("part.glsl", cases[i].place, cases[i].said);
+            refused_at("main.vert", cases[i].place, cases[i].said);
+        }
+    }
     testing_write("zero.vert", "int a;\nint\0b;\n", 14);
     refused_at("zero.vert", "./zero.vert:2: ", "byte 0x00: the file is not text");
-    make("control.vert", "int a;\r\n\r\nint \x1B[31m;\n");
-    refused_at("control.vert", "./control.vert:3: ", "byte 0x1B");
-    make("delete.vert", "\x7F");
-    refused_at("delete.vert", "./delete.vert:1: ", "byte 0x7F");
-    make("png.vert", "\x89PNG\r\n\x1A\n");
-    refused_at("png.vert", "./png.vert:2: ", "byte 0x1A");
-    make("includes.vert", "\n#include \"zero.vert\"\n");
-    refused_at("includes.vert", "./zero.vert:2: ", "byte 0x00");
-}
-
-SHADER_TEST(an_empty_file_is_refused)
-{
-    static const char *const empty[] = {"", "\n", " \t\r\n\r\n", "\xEF\xBB\xBF"};
-    for (size_t i = 0; i < sizeof empty / sizeof empty[0]; i++) {
-        make("empty.vert", empty[i]);
-        refused_at("empty.vert", "./empty.vert:1: ", "the file is empty");
-    }
 }
 
 SHADER_TEST(a_file_has_at_most_the_documented_size)
@@ -281,18 +294,6 @@ SHADER_TEST(version_100_comes_first_in_any_spelling)
     becomes("#versions 1\n", "#versions 1\n"); /* left to the driver to reject */
     make("part.glsl", "#version 100\nint b;\n");
     becomes("#include \"part.glsl\"\n", "\nint b;\n");
-}
-
-SHADER_TEST(any_other_version_is_refused_with_its_line)
-{
-    static const char *const bad[] = {"#version 300 es", "#version 110", "#version 1000",
-                                      "#version",        "#version es",  "# version 99"};
-    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
-        make("part.glsl", bad[i]);
-        refused_at("part.glsl", "./part.glsl:1: ", "only #version 100");
-        make("main.vert", "int a;\n#include \"part.glsl\"\n");
-        refused_at("main.vert", "./part.glsl:1: ", "only #version 100");
-    }
 }
 
 SHADER_TEST(defines_follow_the_version_and_move_no_line)
@@ -400,27 +401,6 @@ SHADER_TEST(a_comment_that_opens_behind_a_directive_stays_open)
         assert_int_equal(count(source.text, "/*"), 1);
         assert_int_equal(count(source.text, "*/"), 1);
     }
-}
-
-SHADER_TEST(an_include_that_names_no_file_is_refused_with_its_line)
-{
-    static const char *const bad[] = {"#include",         "#include a.glsl", "#include <a.glsl>",
-                                      "#include \"",      "#include \"\"",   "#include \"a.glsl",
-                                      "#include 'a.glsl'"};
-    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
-        char text[128];
-        snprintf(text, sizeof text, "int a;\n\n%s", bad[i]);
-        make("main.vert", text);
-        refused_at("main.vert", "./main.vert:3: ", "#include needs a file's name in double quotes");
-    }
-    make("main.vert", "int a;\n#include \"sub/nope.glsl\"\n");
-    refused_at("main.vert", "./main.vert:2: sub/nope.glsl: no such shader file",
-               "\n  tried ./sub/nope.glsl");
-    make("outer.vert", "#include \"main.vert\"\n");
-    refused_at("outer.vert", "./main.vert:2: sub/nope.glsl: no such shader file", "");
-    assert_int_equal(mkdir("folder.glsl", 0777), 0);
-    make("main.vert", "#include \"folder.glsl\"\n");
-    refused_at("main.vert", "./main.vert:1: ./folder.glsl: is not a regular file", "");
 }
 
 SHADER_TEST(a_file_that_includes_itself_is_refused_with_place_and_chain)
