@@ -386,9 +386,8 @@ TEST(the_extension_names_the_format)
     static const char *const nameless[] = {"a", "a.b/c", "a.", ".png", "dir/.png", ""};
     for (size_t i = 0; i < sizeof nameless / sizeof nameless[0]; i++) {
         char format[16];
-        Message message = {0};
-        assert_false(image_format(nameless[i], format, &message));
-        assert_non_null(strstr(message.text, ": the extension names the format; give one, as in "));
+        FAILS_WITH(image_format(nameless[i], format, message),
+                   ": the extension names the format; give one, as in ");
     }
     assert_true(image_format_is_float("exr") && image_format_is_float("tif"));
     assert_false(image_format_is_float("png") || image_format_is_float("jpg"));

@@ -563,7 +563,6 @@ TEST(a_light_that_is_off_adds_nothing_and_compiles_nothing)
 TEST(the_maximum_of_lights_is_drawn_and_one_more_is_rejected)
 {
     Light lights[EFFECTS_MAX_LIGHTS + 1];
-    Message message = {0};
     make_world(&RICH);
     world.scene.lights = lights;
     for (int i = 0; i <= EFFECTS_MAX_LIGHTS; i++) {
@@ -576,9 +575,8 @@ TEST(the_maximum_of_lights_is_drawn_and_one_more_is_rejected)
     draw_both();
     assert_true(pictures_agree("most lights", &specialised, &full, 8));
     world.scene.light_count++;
-    assert_false(
-        lighting_show(lighting, &(LightingFrame){.scene = &world.scene, .aspect = 1}, &message));
-    assert_string_equal(message.text, "scene: 33 lights: at most 32 fit into one program");
+    FAILS(lighting_show(lighting, &(LightingFrame){.scene = &world.scene, .aspect = 1}, message),
+          "scene: 33 lights: at most 32 fit into one program");
 }
 
 TEST(a_broken_shader_is_reported_with_its_line_and_not_counted)

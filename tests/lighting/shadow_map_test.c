@@ -221,14 +221,13 @@ TEST_WITH(0, maps_are_nearly_right_in_hard_cases, open_meshes, close_meshes)
 
 TEST_WITH(0, maps_larger_than_the_driver_has_are_refused, open_meshes, close_meshes)
 {
-    Message why = {0};
     GLint most = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
     use_map(most + 1, 0, SHADOWS_DEFAULT.bias);
     make_world(&ball);
-    assert_false(
-        lighting_show(lighting, &(LightingFrame){.scene = &world.scene, .aspect = 1}, &why));
-    assert_non_null(strstr(why.text, "textures up to"));
+    FAILS_WITH(
+        lighting_show(lighting, &(LightingFrame){.scene = &world.scene, .aspect = 1}, message),
+        "textures up to");
     use_way(SHADOWS_VOLUMES);
     assert_true(check("after that", &world.scene));
 }

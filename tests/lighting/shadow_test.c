@@ -422,7 +422,6 @@ TEST_WITH(0, what_needs_no_shadow_has_none, open_meshes, close_meshes)
 /* Attachments of a canvas with several samples would need as many masks. */
 TEST(several_samples_of_a_pixel_are_supersampled)
 {
-    Message why = {0};
     Canvas other;
     SUCCEEDS(canvas_open_beside(
         &other, &canvas,
@@ -434,9 +433,9 @@ TEST(several_samples_of_a_pixel_are_supersampled)
         open_meshes(NULL);
         make_world(&ball);
         canvas_clear(&other, (Vec3){0, 0, 0}, 1);
-        assert_false(
-            lighting_show(lighting, &(LightingFrame){.scene = &world.scene, .aspect = 1.3}, &why));
-        assert_non_null(strstr(why.text, "supersampling"));
+        FAILS_WITH(lighting_show(lighting, &(LightingFrame){.scene = &world.scene, .aspect = 1.3},
+                                 message),
+                   "supersampling");
         close_meshes(NULL);
     }
     canvas_close(&other);

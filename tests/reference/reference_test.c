@@ -676,11 +676,9 @@ TEST_WITH(0, objects_out_of_view_leave_the_background, set_up, tear_down)
 static void assert_refused(ReferenceOptions options, const char *expected)
 {
     Reference reference;
-    Message message = {0};
     const Reference zero = {0};
     memset(&reference, 0xa5, sizeof reference);
-    assert_false(reference_open(&reference, &world.scene, &options, &message));
-    assert_string_equal(message.text, expected);
+    FAILS(reference_open(&reference, &world.scene, &options, message), expected);
     assert_memory_equal(&reference, &zero, sizeof zero);
 }
 

@@ -186,10 +186,9 @@ TEST_WITH(0, ends_of_ranges_are_accepted, set_up, NULL)
 TEST_WITH(0, a_camera_without_aspect_is_refused, set_up, NULL)
 {
     Mat4 eye_from_world, clip_from_eye;
-    Message message = {0};
-    assert_false(scene_camera(&world.scene.camera, 0, &eye_from_world, &clip_from_eye, &message));
-    assert_string_equal(message.text, "camera: fovy 45, aspect 0, near 0.1, far 100: must be 0 < "
-                                      "fovy < 180, aspect > 0, 0 < near < far");
+    FAILS(scene_camera(&world.scene.camera, 0, &eye_from_world, &clip_from_eye, message),
+          "camera: fovy 45, aspect 0, near 0.1, far 100: must be 0 < "
+          "fovy < 180, aspect > 0, 0 < near < far");
 }
 
 /* Coordinates relative to the eye. */

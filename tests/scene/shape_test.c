@@ -151,9 +151,7 @@ FOLDER_TEST(a_model_fills_the_sphere)
 TEST(a_kind_that_does_not_exist_is_refused)
 {
     Shape shape;
-    Message message = {0};
-    assert_false(shape_open(&shape, SHAPE_COUNT, SHAPE_LECTURE, NULL, &message));
-    assert_string_equal(message.text, "shape 13: there is none");
+    FAILS(shape_open(&shape, SHAPE_COUNT, SHAPE_LECTURE, NULL, message), "shape 13: there is none");
     shape_close(NULL);
 }
 

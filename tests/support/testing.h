@@ -96,6 +96,20 @@ extern Message testing_failure;
         require(call, message);                                                                    \
     } while (0)
 
+/* The call is refused with the message, or with one that has this part. */
+#define FAILS(call, text_of_message)                                                               \
+    do {                                                                                           \
+        Message *const message = &(Message){0};                                                    \
+        assert_false(call);                                                                        \
+        assert_string_equal(message->text, text_of_message);                                       \
+    } while (0)
+#define FAILS_WITH(call, part)                                                                     \
+    do {                                                                                           \
+        Message *const message = &(Message){0};                                                    \
+        assert_false(call);                                                                        \
+        assert_non_null(strstr(message->text, part));                                              \
+    } while (0)
+
 /* Set-up and tear-down for cmocka: a temporary folder, made the current one, and its removal. */
 extern char testing_folder[];
 int testing_enter_folder(void **state);
