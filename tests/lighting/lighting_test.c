@@ -1,7 +1,7 @@
 /*
  * Pictures of the lighting model, and the programs that draw them: the specialized program
- * draws what the full program draws. The model itself: closed_form_test.c, and the pictures of the
- * reference, whose equation is the oracle's (reference_solid_test.c).
+ * draws what the full program draws. The model itself: fixed_function_test.c, and the pictures of
+ * the reference, whose equation is the oracle's (reference_solid_test.c).
  */
 #include "core/canvas.h"
 #include "core/mesh_make.h"
