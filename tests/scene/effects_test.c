@@ -197,35 +197,6 @@ TEST_WITH(0, a_light_whose_cone_misses_the_object_is_left_out, set_up, NULL)
     assert_set("normals unit_fragment | 0 spot diffuse");
 }
 
-TEST_WITH(0, a_cone_that_contains_a_vertex_is_kept, set_up, NULL)
-{
-    Light *light = &world.lights[0];
-    world.object.mesh = &cube;
-    int left_out = 0;
-    for (int i = 0; i < 3600; i++) {
-        const double turn = i * 0.0174532925199, cutoff = i % 91;
-        *light = (Light){.kind = LIGHT_SPOT,
-                         .position = {2 * cos(turn) + 3, i % 7 - 3, 4 * sin(turn)},
-                         .direction = {sin(3.1 * turn), cos(1.7 * turn), sin(0.9 * turn) - 0.5},
-                         .diffuse = WHITE,
-                         .cutoff = cutoff};
-        bool holds = false;
-        for (size_t k = 0; k < cube.vertex_count; k++) {
-            const float *p = cube.vertices[k].position;
-            Vec3 way, axis;
-            vec3_normalize(
-                vec3_subtract((Vec3){(double)p[0], (double)p[1], (double)p[2]}, light->position),
-                &way);
-            vec3_normalize(light->direction, &axis);
-            holds |= vec3_dot(way, axis) >= cos(cutoff * 0.017453292519943295);
-        }
-        const bool there = effects_of(&world.scene, &world.object).group_count > 0;
-        assert_true(there || !holds);
-        left_out += !there;
-    }
-    assert_true(left_out > 1000);
-}
-
 TEST_WITH(0, even_ambient_light_is_part_of_the_base, set_up, NULL)
 {
     world.lights[0].diffuse = BLACK;
@@ -453,40 +424,6 @@ TEST_WITH(0, dot_products_are_clamped_unless_requested_and_under_lights_with_sha
     world.lights[0].shadows = true;
     assert_set("normals unit_fragment | 0 directional diffuse");
     assert_said("dot products clamped: none of a light with shadows arrives from behind");
-}
-
-/* Only whether a number is zero matters, and whether alpha is one. */
-TEST_WITH(0, values_do_not_change_the_set, set_up, NULL)
-{
-    Light *light = &world.lights[0];
-    char before[1024], after[1024];
-    shine_specular();
-    shine_ambient();
-    light->kind = LIGHT_SPOT;
-    light->position = (Vec3){0, 0, 3};
-    light->direction = (Vec3){0, 0, -1};
-    light->cutoff = 40;
-    light->exponent = 2;
-    light->constant = light->linear = light->quadratic = 1;
-    world.object.front.alpha = 0.5;
-    world.object.front.emission = RED;
-    const Effects effects = effects_of(&world.scene, &world.object);
-    write_set(&effects, before);
-    light->diffuse = (Vec3){0.001, 0, 0};
-    light->specular = (Vec3){0, 1000, 0};
-    light->ambient = (Vec3){0, 0, 0.5};
-    light->cutoff = 3;
-    light->exponent = 127;
-    light->linear = 1e-6;
-    light->position = (Vec3){0.5, -0.5, 30};
-    world.object.front = (Material){{0, 0, 0.1}, {0.1, 1, 0}, {0, 0.1, 0}, {0, 0, 0.01}, 0, 0};
-    world.scene.global_ambient = RED;
-    transform_by(turned());
-    const Effects others = effects_of(&world.scene, &world.object);
-    write_set(&others, after);
-    assert_string_equal(after, before);
-    assert_memory_equal(&others, &effects,
-                        sizeof effects); /* including padding: sets may be compared bytewise */
 }
 
 TEST_WITH(0, the_full_set_has_every_effect, set_up, NULL)
