@@ -422,21 +422,6 @@ PANEL_TEST(test_the_clipboard_is_pasted)
 
 /* Choices, switches, colours. */
 
-PANEL_TEST(test_a_few_choices_lie_side_by_side)
-{
-    const Parameter parameters[] = {EVERY[2], {.name = NULL}};
-    Span spans[MAX_ROWS];
-    choice = 0;
-    show(parameters);
-    const double y = only_row();
-    assert_int_equal(find_controls(y, spans), 3);
-    for (int i = 2; i >= 0; i--) {
-        assert_int_equal(click(spans[i].middle, y), 1);
-        assert_int_equal(choice, i);
-        assert_int_equal(click(spans[i].middle, y), 0);
-    }
-}
-
 PANEL_TEST(test_many_choices_unfold)
 {
     double y;
@@ -502,8 +487,8 @@ PANEL_TEST(test_a_color_has_a_slider_for_each_part)
     assert_false(result.wants_keys);
 }
 
-/* A switch whose states have names, and a text of a few choices or none. */
-PANEL_TEST(test_named_states_lie_side_by_side)
+/* A choice, a switch whose states have names, and a text of a few choices or none. */
+PANEL_TEST(test_a_few_choices_lie_side_by_side)
 {
     static const char *const states[] = {"vertex", "end", NULL};
     static const char *const precisions[] = {"highp", "mediump", NULL};
@@ -512,12 +497,14 @@ PANEL_TEST(test_named_states_lie_side_by_side)
         {"clamp", "h", PARAMETER_SWITCH, .value = &on, .choices = states},
         {"precision", "h", PARAMETER_TEXT, .value = &precision, .choices = precisions,
          .standard = "any"},
+        EVERY[2],
         {.name = NULL}};
     double rows[MAX_ROWS];
     Span spans[MAX_ROWS];
     on = false;
+    choice = 0;
     show(parameters);
-    assert_int_equal(find_rows(rows), 2);
+    assert_int_equal(find_rows(rows), 3);
     assert_int_equal(find_controls(rows[0], spans), 2);
     assert_int_equal(click(spans[1].middle, rows[0]), 0);
     assert_int_equal(click(spans[0].middle, rows[0]), 1);
@@ -527,6 +514,12 @@ PANEL_TEST(test_named_states_lie_side_by_side)
     assert_ptr_equal(precision, precisions[1]);
     assert_int_equal(click(spans[0].middle, rows[1]), 2);
     assert_null(precision);
+    assert_int_equal(find_controls(rows[2], spans), 3);
+    for (int i = 2; i >= 0; i--) {
+        assert_int_equal(click(spans[i].middle, rows[2]), 4);
+        assert_int_equal(choice, i);
+        assert_int_equal(click(spans[i].middle, rows[2]), 0);
+    }
 }
 
 /* Its switch lies below three lines of errors. */
