@@ -40,11 +40,6 @@ static void append(Bytes *bytes, const void *data, size_t size)
     bytes->size += size;
 }
 
-static void append_floats(Bytes *bytes, const float *floats, size_t count)
-{
-    append(bytes, floats, count * sizeof *floats); /* little-endian, like this machine */
-}
-
 /* Of a file in models/. */
 static Bytes file(const char *name)
 {
@@ -119,48 +114,6 @@ static void assert_bounds(const Mesh *mesh, Vec3 low, Vec3 high, double toleranc
 }
 
 /* Files. */
-
-/* An STL file's bytes: a header; then for each facet its normal, three corners, two attributes. */
-static Bytes stl(const float normal[3], const float (*corners)[3], const uint16_t (*facets)[3],
-                 uint32_t count)
-{
-    Bytes bytes = {.size = 80};
-    append(&bytes, &count, sizeof count);
-    for (uint32_t i = 0; i < count; i++) {
-        append_floats(&bytes, normal, 3);
-        for (int k = 0; k < 3; k++)
-            append_floats(&bytes, corners[facets[i][k]], 3);
-        append(&bytes, "\0\0", 2);
-    }
-    return bytes;
-}
-
-static Bytes binary_stl(void)
-{
-    static const float up[3] = {0, 0, 1},
-                       corners[4][3] = {{0, 0, 2}, {1, 0, 2}, {1, 1, 2}, {0, 1, 2}};
-    static const uint16_t facets[2][3] = {{0, 1, 2}, {0, 2, 3}};
-    return stl(up, corners, facets, 2);
-}
-
-static Bytes binary_ply(void)
-{
-    static const float corners[4][6] = {
-        {0, 0, 0, 0, 3, 4}, {1, 0, 0, 0, 3, 4}, {1, 1, 0, 0, 3, 4}, {0, 1, 0, 0, 3, 4}};
-    static const struct {
-        unsigned char count;
-        int32_t corners[3];
-    } __attribute__((packed)) faces[2] = {{3, {0, 1, 2}}, {3, {0, 2, 3}}};
-    Bytes bytes = text("ply\nformat binary_little_endian 1.0\n"
-                       "element vertex 4\n"
-                       "property float x\nproperty float y\nproperty float z\n"
-                       "property float nx\nproperty float ny\nproperty float nz\n"
-                       "element face 2\n"
-                       "property list uchar int vertex_indices\nend_header\n");
-    append_floats(&bytes, corners[0], 24);
-    append(&bytes, faces, sizeof faces);
-    return bytes;
-}
 
 /* One tetrahedron, corners at the origin and at 1 on each axis, placed by these nodes: with or
  * without normals, which are not normalized. */
@@ -297,7 +250,7 @@ TEST(a_ply_file_is_read_as_text_and_as_bytes)
         assert_true(topology_distance(vec3_from_float(mesh.vertices[i].normal),
                                       vec3_from_float(mesh.vertices[i].position)) <= FLT_EPSILON);
     mesh_close(&mesh);
-    mesh = read_sound("square.ply", binary_ply());
+    mesh = read_sound("square.ply", file("square_bytes.ply"));
     assert_counts(&mesh, 4, 2);
     assert_true(topology_area(&mesh) == 1);
     for (size_t i = 0; i < 4; i++)
@@ -310,7 +263,7 @@ TEST(an_stl_file_is_read_as_text_and_as_bytes)
 {
     for (int binary = 0; binary < 2; binary++) {
         CLOSED(mesh_close)
-        Mesh mesh = read_sound("square.stl", binary ? binary_stl() : file("square.stl"));
+        Mesh mesh = read_sound("square.stl", file(binary ? "square_bytes.stl" : "square.stl"));
         assert_counts(&mesh, 4, 2);
         assert_true(topology_area(&mesh) == 1);
         assert_bounds(&mesh, (Vec3){0, 2, -1}, (Vec3){1, 2, 0}, 0); /* z is up */
@@ -321,10 +274,6 @@ TEST(an_stl_file_is_read_as_text_and_as_bytes)
 
 /* A pyramid whose box has corners (-1, -2, 0) and (1, 2, 4), in every format that has an axis of
  * its own. */
-
-static const float PYRAMID[5][3] = {{-1, -2, 0}, {1, -2, 0}, {1, 2, 0}, {-1, 2, 0}, {0, 0, 4}};
-static const uint16_t PYRAMID_FACES[6][3] = {{0, 2, 1}, {0, 3, 2}, {0, 1, 4},
-                                             {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
 
 static Bytes pyramid_collada(char up)
 {
@@ -359,7 +308,7 @@ TEST(models_stand_upright)
         Bytes bytes;
         ModelUp own;
     } files[] = {
-        {"p.stl", stl((const float[3]){0}, PYRAMID, PYRAMID_FACES, 6), MODEL_UP_Z},
+        {"p.stl", file("pyramid.stl"), MODEL_UP_Z},
         {"p.3ds", file("pyramid.3ds"), MODEL_UP_Z},
         {"p.dae", pyramid_collada('X'), MODEL_UP_X},
         {"p.dae", pyramid_collada('Y'), MODEL_UP_Y},
@@ -367,10 +316,7 @@ TEST(models_stand_upright)
         {"p.fbx", pyramid_fbx(0, 1, true), MODEL_UP_X},
         {"p.fbx", pyramid_fbx(1, 1, true), MODEL_UP_Y},
         {"p.fbx", pyramid_fbx(2, 1, true), MODEL_UP_Z},
-        {"p.obj",
-         text("v -1 -2 0\nv 1 -2 0\nv 1 2 0\nv -1 2 0\nv 0 0 4\n"
-              "f 1 3 2\nf 1 4 3\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n"),
-         MODEL_UP_Y},
+        {"p.obj", file("pyramid.obj"), MODEL_UP_Y},
     };
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
         for (ModelUp up = MODEL_UP_FILE; up <= MODEL_UP_Z; up++) {
@@ -598,7 +544,7 @@ TEST(invalid_models_are_rejected)
 /* Wherever it is cut behind its header. */
 TEST(a_ply_file_that_was_cut_is_rejected)
 {
-    const Bytes whole[] = {file("octahedron.ply"), binary_ply()};
+    const Bytes whole[] = {file("octahedron.ply"), file("square_bytes.ply")};
     for (int i = 0; i < 2; i++) {
         const char *end = strstr((const char *)whole[i].data, "end_header\n") + 11;
         const size_t header = (size_t)(end - (const char *)whole[i].data);
@@ -654,10 +600,12 @@ TEST(damaged_files_are_harmless)
     const struct {
         const char *name;
         Bytes bytes;
-    } files[] = {
-        {"damaged.obj", file("cube.obj")}, {"damaged.ply", file("octahedron.ply")},
-        {"bytes.ply", binary_ply()},       {"damaged.stl", file("square.stl")},
-        {"bytes.stl", binary_stl()},       {"damaged.gltf", gltf("[{\"mesh\":0}]", POSITION)}};
+    } files[] = {{"damaged.obj", file("cube.obj")},
+                 {"damaged.ply", file("octahedron.ply")},
+                 {"bytes.ply", file("square_bytes.ply")},
+                 {"damaged.stl", file("square.stl")},
+                 {"bytes.stl", file("square_bytes.stl")},
+                 {"damaged.gltf", gltf("[{\"mesh\":0}]", POSITION)}};
     enum { FILES = sizeof files / sizeof files[0] };
     struct rlimit before, after;
     assert_int_equal(getrlimit(RLIMIT_AS, &before), 0);
