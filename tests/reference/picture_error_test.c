@@ -215,55 +215,6 @@ TEST(floats_are_clamped_and_values_not_finite_are_wrong)
     }
 }
 
-/* The errors of views, each with its own exact picture, add up to that of the whole picture. */
-TEST(views_add_up_to_the_picture)
-{
-    static const int cuts[][4] = {{0, 0, 3, 2}, {3, 0, 4, 2}, {0, 2, 3, 3}, {3, 2, 4, 3}};
-    Plain whole, part;
-    srand(1);
-    for (int type = IMAGE_BYTE; type <= IMAGE_FLOAT; type++) {
-        CLOSED(image_close) Image image = open_image(WIDTH, HEIGHT, (ImageType)type, 0);
-        plain_open(&whole, WIDTH, HEIGHT, 0);
-        for (int i = 0; i < COUNT; i++) {
-            whole.interior[i] = rand() % 2 == 1;
-            for (int c = 0; c < 3; c++) {
-                whole.color[3 * i + c] = (float)(rand() % 256) / 256; /* so that sums are exact */
-                if (type == IMAGE_BYTE)
-                    put_byte(&image, i % WIDTH, i / WIDTH, c, rand() % 256);
-                else
-                    put_float(&image, i % WIDTH, i / WIDTH, c, (double)(rand() % 256) / 256);
-            }
-        }
-        const PictureError expected = compare(&image, &whole);
-        PictureError error = {.all = {0}};
-        for (size_t v = 0; v < sizeof cuts / sizeof cuts[0]; v++) {
-            const int *place = cuts[v];
-            plain_open(&part, place[2], place[3], 0);
-            for (int i = 0; i < place[2] * place[3]; i++) {
-                const int from = (place[1] + i / place[2]) * WIDTH + place[0] + i % place[2];
-                memcpy(&part.color[3 * i], &whole.color[3 * from], 3 * sizeof(float));
-                part.interior[i] = whole.interior[from];
-            }
-            picture_error_add(
-                &error, &image,
-                &(ExactView){
-                    .exact = &part.exact, .scene = &part.scene, .left = place[0], .top = place[1]});
-        }
-        const ErrorSum *sums[2][2] = {{&error.interior, &expected.interior},
-                                      {&error.all, &expected.all}};
-        for (int k = 0; k < 2; k++) {
-            assert_int_equal(sums[k][0]->pixels, sums[k][1]->pixels);
-            assert_int_equal(sums[k][0]->wrong, sums[k][1]->wrong);
-            /* Of equal maxima, the first is another one by views. */
-            const size_t worst = sums[k][0]->worst;
-            assert_true(pixel_error(&image, worst, &whole.color[3 * worst]).largest ==
-                        sums[k][1]->maximum);
-            assert_true(sums[k][0]->maximum == sums[k][1]->maximum);
-            assert_true(sums[k][0]->squares == sums[k][1]->squares);
-        }
-    }
-}
-
 /* A pixel that the drawn objects do not cover wholly is not inside; whichever covers it. */
 TEST(what_is_drawn_limits_the_interior)
 {
