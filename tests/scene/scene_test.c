@@ -3,7 +3,6 @@
  * No GL.
  */
 #include "base/random.h"
-#include "scene/material.h"
 #include "scene/scene.h"
 #include "shapes/mesh_solids.h"
 #include "support/testing.h"
@@ -228,23 +227,6 @@ TEST_WITH(0, a_scene_far_away_has_the_eye_coordinates_of_the_same_at_the_origin,
     }
 }
 
-TEST_WITH(0, eye_coordinates_are_those_of_the_plain_product, set_up, NULL)
-{
-    Mat4 eye_from_world, clip_from_eye;
-    const Camera camera = {{1, 2, 3}, {-4, 0.5, 0}, {0.1, 1, 0}, 45, 0.1, 100, 0};
-    const Mat4 world_from_object = object_matrix((Vec3){-1, 0.3, 0.7});
-    assert_true(scene_camera(&camera, 1, &eye_from_world, &clip_from_eye, NULL));
-    const Mat4 got = scene_eye_from_object(&camera, eye_from_world, world_from_object);
-    const Mat4 expected = mat4_product(eye_from_world, world_from_object);
-    /* Rounding of sums of numbers below 10. */
-    for (int k = 0; k < 16; k++)
-        assert_true(fabs(got.m[k] - expected.m[k]) <= 1e-14);
-    const Vec3 point = {3, -2, 5};
-    const Vec3 difference = vec3_subtract(scene_eye_point(&camera, eye_from_world, point),
-                                          mat4_transform_point(eye_from_world, point));
-    assert_true(vec3_length(difference) <= 1e-14);
-}
-
 /* Depth. */
 
 static Random random_state = {13};
@@ -444,17 +426,6 @@ TEST_WITH(0, the_last_bit_is_of_all_lights_that_follow, set_up, NULL)
     scene_keep_terms(&copy, (SceneTerms){.lights_left_out = 1U << 31 | 1U << 5});
     for (int i = 0; i < 40; i++)
         assert_int_equal(copy.scene.lights[i].off, i == 5 || i >= 31);
-}
-
-TEST_WITH(0, every_material_may_stand_in_a_scene, set_up, NULL)
-{
-    Message message = {0};
-    for (int i = 0; i < MATERIAL_COUNT; i++) {
-        world.object.front = MATERIALS[i].material;
-        if (!scene_check(&world.scene, &message))
-            fail_msg("%s: %s", MATERIALS[i].name, message.text);
-        assert_true(MATERIALS[i].material.alpha == 1);
-    }
 }
 
 /* Of the copy every number is the same, and every place its own. */
