@@ -268,11 +268,21 @@ static Parameter scene_row(const char *name)
     return *row;
 }
 
+/* Writes an option of scenes, and reads what was written. */
+static void write_and_read(const char *name)
+{
+    char line[PARAMETER_TEXT_SIZE + 100], text[PARAMETER_TEXT_SIZE];
+    const Parameter row = scene_row(name);
+    assert_true(parameter_write(&row, text, sizeof text));
+    snprintf(line, sizeof line, "--%s %s", name, text);
+    assert_int_equal(read_as(&SCENE, line), OPTIONS_RUN);
+}
+
 /* Every set of terms and of four lights, in both orders; what is written is read as the same. */
 TEST(every_set_of_terms_and_lights_is_read_and_written)
 {
     for (unsigned bits = 1; bits < 1 << 8; bits++) {
-        char line[PARAMETER_TEXT_SIZE + 100] = "--terms ", text[PARAMETER_TEXT_SIZE];
+        char line[PARAMETER_TEXT_SIZE] = "--terms ";
         for (int i = 0; i < 8; i++) {
             const int k = bits & 1 ? i : 7 - i;
             if (bits >> k & 1)
@@ -287,10 +297,7 @@ TEST(every_set_of_terms_and_lights_is_read_and_written)
         assert_int_equal(read.left_out, bits & 15 ? TERM_ALL & ~bits : 0);
         assert_int_equal(read.lights_left_out, lights ? ~lights : 0);
         assert_false(read.unlit);
-        const Parameter row = scene_row("terms");
-        assert_true(parameter_write(&row, text, sizeof text));
-        snprintf(line, sizeof line, "--terms %s", text);
-        assert_int_equal(read_as(&SCENE, line), OPTIONS_RUN);
+        write_and_read("terms");
         assert_memory_equal(&options.terms, &read, sizeof read);
     }
     assert_int_equal(read_as(&SCENE, ""), OPTIONS_RUN);
@@ -300,24 +307,20 @@ TEST(every_set_of_terms_and_lights_is_read_and_written)
 /* All lights but one are the longest text. */
 TEST(the_longest_terms_fit)
 {
-    char text[PARAMETER_TEXT_SIZE], line[PARAMETER_TEXT_SIZE + 100];
     for (unsigned left_out = 0; left_out < 32; left_out++) {
         assert_int_equal(read_as(&SCENE, ""), OPTIONS_RUN);
         options.terms.lights_left_out = (uint32_t)1 << left_out;
-        const Parameter row = scene_row("terms");
-        assert_true(parameter_write(&row, text, sizeof text));
-        snprintf(line, sizeof line, "--terms %s", text);
-        assert_int_equal(read_as(&SCENE, line), OPTIONS_RUN);
+        write_and_read("terms");
         assert_int_equal(options.terms.lights_left_out, (uint32_t)1 << left_out);
     }
 }
 
 TEST(lights_are_put_elsewhere)
 {
-    char line[PARAMETER_TEXT_SIZE + 100], text[PARAMETER_TEXT_SIZE];
+    char text[PARAMETER_TEXT_SIZE];
     assert_int_equal(read_as(&SCENE, ""), OPTIONS_RUN);
     assert_int_equal(options.places.placed, 0);
-    Parameter row = scene_row("light-at");
+    const Parameter row = scene_row("light-at");
     assert_false(parameter_write(&row, text, sizeof text));
     assert_int_equal(read_as(&SCENE, "--light-at 1,0.5,-2,1e3/7,0,0,1"), OPTIONS_RUN);
     assert_int_equal(options.places.placed, 1 << 1 | 1 << 7);
@@ -328,17 +331,14 @@ TEST(lights_are_put_elsewhere)
     for (int i = 0; i < SCENE_MAX_PLACED; i++)
         options.places.at[i] = (Vec3){-12.345 - i, -0.001 * i, 100.123};
     const LightPlaces all = options.places;
-    row = scene_row("light-at");
-    assert_true(parameter_write(&row, text, sizeof text));
-    snprintf(line, sizeof line, "--light-at %s", text);
-    assert_int_equal(read_as(&SCENE, line), OPTIONS_RUN);
+    write_and_read("light-at");
     for (int i = 0; i < SCENE_MAX_PLACED; i++)
         assert_memory_equal(&options.places.at[i], &all.at[i], sizeof all.at[i]);
 }
 
 TEST(lights_get_other_colors)
 {
-    char line[PARAMETER_TEXT_SIZE + 100], text[PARAMETER_TEXT_SIZE];
+    char text[PARAMETER_TEXT_SIZE];
     assert_int_equal(read_as(&SCENE, ""), OPTIONS_RUN);
     Parameter row = scene_row("light-color");
     assert_false(parameter_write(&row, text, sizeof text));
@@ -356,10 +356,7 @@ TEST(lights_get_other_colors)
         options.tints.specular[i] = vec3_scale(options.tints.diffuse[i], 1.0 / 3);
     }
     const LightTints all = options.tints;
-    row = scene_row("light-color");
-    assert_true(parameter_write(&row, text, sizeof text));
-    snprintf(line, sizeof line, "--light-color %s", text);
-    assert_int_equal(read_as(&SCENE, line), OPTIONS_RUN);
+    write_and_read("light-color");
     assert_memory_equal(&options.tints, &all, sizeof all);
 }
 
@@ -459,15 +456,6 @@ TEST(a_gallery_takes_names_and_a_folder_but_no_frames)
     refuse_as(&GALLERY, "-n 2", "--frames: a gallery");
     refuse_as(&GALLERY, "--fps 2", "--fps: a gallery");
     refuse_as(&GALLERY, "-s 4x", "--size 4x: must be");
-}
-
-TEST(reading_again_resets_the_options)
-{
-    accept("-v --alpha -s 4x4");
-    refuse("--bogus -v", "--bogus");
-    accept("");
-    assert_false(options.verbose || options.alpha);
-    assert_int_equal(options.width, 400);
 }
 
 int main(void)
