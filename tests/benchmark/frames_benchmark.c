@@ -10,7 +10,6 @@
 
 #include <png.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 extern const Example PointLightedCube_perFragment;
 
@@ -60,21 +59,11 @@ static bool draw_and_write(__attribute__((unused)) void *argument, Message *mess
 
 static bool write_default_png(const char *path, const Image *image)
 {
-    FILE *file = fopen(path, "wb");
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, NULL);
-    png_infop info = png ? png_create_info_struct(png) : NULL;
-    if (!file || !info || setjmp(png_jmpbuf(png)))
-        abort();
-    png_init_io(png, file);
-    png_set_IHDR(png, info, (png_uint_32)image->width, (png_uint_32)image->height, 8,
-                 PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
-                 PNG_FILTER_TYPE_DEFAULT);
-    png_write_info(png, info);
-    for (int y = 0; y < image->height; y++)
-        png_write_row(png, (png_const_bytep)image->pixels + (size_t)y * image_row_size(image));
-    png_write_end(png, info);
-    png_destroy_write_struct(&png, &info);
-    return fclose(file) == 0;
+    png_image png = {.version = PNG_IMAGE_VERSION,
+                     .width = (png_uint_32)image->width,
+                     .height = (png_uint_32)image->height,
+                     .format = PNG_FORMAT_RGBA};
+    return png_image_write_to_file(&png, path, 0, image->pixels, 0, NULL) != 0;
 }
 
 static bool draw_then_write_default(__attribute__((unused)) void *argument, Message *message)
