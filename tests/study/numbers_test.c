@@ -74,28 +74,6 @@ TEST(a_machine_is_known_by_what_it_computes)
     }
 }
 
-TEST(this_processor_has_floats)
-{
-    FormatProbes probes;
-    volatile float sums[FORMAT_PROBES], products[FORMAT_PROBES];
-    float kept[2][FORMAT_PROBES];
-    Format found;
-    format_sums(&probes);
-    for (int i = 0; i < FORMAT_PROBES; i++)
-        sums[i] = probes.x[i] + probes.y[i];
-    format_products(&probes);
-    for (int i = 0; i < FORMAT_PROBES; i++) {
-        products[i] = probes.x[i] * probes.y[i];
-        products[i] *= probes.z[i];
-    }
-    for (int i = 0; i < FORMAT_PROBES; i++) {
-        kept[0][i] = sums[i];
-        kept[1][i] = products[i];
-    }
-    assert_true(format_of(kept[0], kept[1], &found));
-    assert_true(format_equal(&found, &SINGLE));
-}
-
 TEST(a_driver_that_lies_is_seen_through)
 {
     const Claim half = {15, 15, 10}, single = {127, 127, 23}, wide = {127, 127, 10},
