@@ -7,7 +7,6 @@
 #include "hard/hard.h"
 #include "shapes/mesh_solids.h"
 #include "support/picture_check.h"
-#include "support/quad.h"
 #include "support/testing.h"
 
 enum { SIZE = 64, SLICES = 48 };
@@ -419,60 +418,6 @@ DRAWN_TEST(tiny_or_huge_scale_beyond_floats_is_finite)
             for (HardPrecision p = HARD_HIGHP; p <= HARD_MEDIUMP; p++)
                 hard_draw_finite(&world.scene, p);
         }
-    }
-}
-
-/* Rotation drift. */
-
-enum { STEPS = 1000000 };
-static const double STEP = 0.36; /* a thousand turns */
-
-static Mat4 drifted_matrix;
-
-static void check_drifted(const char *name, HardWorld *world, HardPrecision precision,
-                          const Reference *exact)
-{
-    static HardFrame rebuilt, drifted;
-    const Mat4 placed = world->objects[0].world_from_object;
-    check_exact(name, world, precision, exact);
-    hard_keep(&rebuilt);
-    world->objects[0].world_from_object = drifted_matrix;
-    check_exact(name, world, precision, exact);
-    hard_keep(&drifted);
-    world->objects[0].world_from_object = placed;
-    for (int i = 0; i < SIZE * SIZE; i++)
-        if (hard_apart(&rebuilt, i, &drifted, i) > 1)
-            fail_msg("%s: pixel %d, %d moved", name, i % SIZE, i / SIZE);
-}
-
-/* 2e-9 times a size of 1 is below the precision of a float angle. */
-DRAWN_TEST(rotation_drift_in_double_is_invisible)
-{
-    HardWorld world;
-    const Vec3 axis = {1, 2, 3};
-    Mat4 product = mat4_identity();
-    const Mat4 step = turn(STEP, axis);
-    for (int i = 0; i < STEPS; i++)
-        product = mat4_product(step, product);
-    drifted_matrix = product;
-    /* Repeated steps drift by the rounding of each, at most 1.1e-16 for each of some 20 operations
-     * if all have the same sign, and by the step's own error a million times. */
-    assert_true(quad_orthonormality_error(drifted_matrix) < STEPS * 20 * 0x1p-53);
-    make_world(&world, &cube, turn(STEPS * STEP, axis));
-    hard_each_way("a million steps", &world, check_drifted);
-}
-
-/* A sphere of condition 1 to 1e8. */
-DRAWN_TEST(thin_objects_keep_their_normals)
-{
-    const Mat4 first = turn(25, (Vec3){1, 2, 0.5}), last = turn(50, (Vec3){3, 1, 2});
-    for (int d = 0; d <= 8; d += 2) {
-        HardWorld world;
-        char name[32];
-        const Mat4 thin = mat4_product(scale(1, 0.8, pow(10, -d)), last);
-        make_world(&world, &sphere, mat4_product(first, thin));
-        snprintf(name, sizeof name, "condition 1e%d", d);
-        hard_each_way(name, &world, check_exact);
     }
 }
 
