@@ -1,11 +1,9 @@
 /*
- * Hard cases of geometry: more vertices than 16-bit indices reach, poles and seams, triangles
- * without area, behind the eye and beyond the planes, NaN vertices, meshes of any size, pictures of
- * one pixel, needles.
+ * Hard cases of geometry: poles and seams, triangles behind the eye and beyond the planes, NaN
+ * vertices, needles.
  */
 #include "core/mesh_make.h"
 #include "hard/hard.h"
-#include "reference/reference_trace.h"
 #include "shapes/mesh_solids.h"
 #include "support/oracle.h"
 #include "support/picture_check.h"
@@ -25,8 +23,6 @@ FIXTURE(forget_made)
         hard_forget(&made[i]);
         mesh_close(&made[i]);
     }
-    if (hard.bytes.width != SIZE || hard.bytes.height != SIZE)
-        hard_resize(SIZE, SIZE);
 }
 
 static void check(const char *name, double reach, int min_pixels)
@@ -59,38 +55,6 @@ TEST_WITH(0, poles_and_seams_do_not_show, NULL, forget_made)
         assert_int_equal(pixels_apart(before, hard.image.pixels, SIZE * SIZE, 1), 0);
     }
     hard_report("poles and seams");
-}
-
-TEST_WITH(0, triangles_without_area_draw_nothing, NULL, forget_made)
-{
-    for (int way = 0; way < 3; way++) {
-        static const Interpolation ways[] = {INTERPOLATION_PHONG, INTERPOLATION_GOURAUD,
-                                             INTERPOLATION_FLAT};
-        /* Repeated corners, corners on a line, all corners in one place. */
-        assert_true(mesh_open(&made[0], 9, 9, NULL));
-        for (size_t i = 0; i < 9; i++) {
-            MeshVertex *vertex = &made[0].vertices[i];
-            vec3_to_float((Vec3){0, 0, 1}, vertex->normal);
-            vertex->position[0] = i < 6 ? 0.25F * (float)(i % 3) : 0.5F;
-            made[0].indices[i] = i == 2 ? 1 : (uint32_t)i;
-        }
-        hard_world(&world, &made[0]);
-        world.scene.interpolation = ways[way];
-        for (HardPrecision precision = HARD_HIGHP; precision <= HARD_MEDIUMP; precision++) {
-            const HardResult result = hard_draw(&world.scene, precision, NULL);
-
-            assert_true(result.interior_pixels == 0 && result.not_finite == 0);
-            for (size_t i = 0; i < 4 * (size_t)SIZE * SIZE; i += 4)
-                assert_int_equal(((unsigned char *)hard.image.pixels)[i], 51);
-        }
-        forget_made(NULL);
-    }
-    /* The lecture's sphere has some at its poles. */
-    assert_true(mesh_sphere_lecture(&made[0], 16, NULL));
-    hard_world(&world, &made[0]);
-    world.objects[0].world_from_object = mat4_rotate(90, (Vec3){1, 0, 0});
-    check("lecture's sphere", REACH, SIZE);
-    hard_report("triangles without area");
 }
 
 static void set_vertex(MeshVertex *vertex, Vec3 position)
@@ -147,109 +111,6 @@ TEST_WITH(0, vertices_that_are_not_finite_are_refused, NULL, forget_made)
     made[0].indices[10] = 45;
     assert_false(mesh_check(&made[0], &message));
     assert_string_equal(message.text, "mesh: triangle 3: vertex 45: there are 45");
-}
-
-/* Pixels as large as the object are not interior: they are compared at their centres, where a
- * driver samples them. */
-static void check_centres(double max)
-{
-    Trace *trace;
-    const int width = hard.bytes.width, height = hard.bytes.height;
-    SUCCEEDS(trace_open(
-        &trace, &world.scene,
-        &(ReferenceOptions){.width = width, .height = height, .meshes = true, .threads = 1},
-        message));
-    for (int i = 0; i < width * height; i++) {
-        Sample sample;
-        trace_sample(trace, i % width + 0.5, i / width + 0.5, &sample);
-        for (int c = 0; c < 3; c++) {
-            const double error = fabs(((unsigned char *)hard.image.pixels)[4 * i + c] -
-                                      255 * (double)sample.color[c]);
-            if (error > max)
-                fail_msg("%d x %d: pixel %d: %.3f of %.3f", width, height, i, error, max);
-        }
-    }
-    trace_close(trace);
-}
-
-TEST_WITH(0, pictures_may_be_one_pixel_wide_or_high, NULL, forget_made)
-{
-    static const int sizes[][2] = {{1, 1}, {1, 2}, {2, 1}, {1, 64}, {64, 1}, {3, 1}, {1, 255}};
-    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
-        hard_resize(sizes[i][0], sizes[i][1]);
-        hard_world(&world, &hard.quad);
-        world.scene.camera.fovy = 20; /* the quad fills the picture's height */
-        for (int way = 0; way < 4; way++) {
-            const HardPrecision precision = way & 1 ? HARD_MEDIUMP : HARD_HIGHP;
-            world.scene.interpolation = way & 2 ? INTERPOLATION_GOURAUD : INTERPOLATION_PHONG;
-            hard_draw_finite(&world.scene, precision);
-            check_centres(precision ? oracle_mediump_max(&world.scene, FAR_OFF) : 1);
-        }
-    }
-}
-
-/* A triangle from bottom left to top right, 32 pixels long, over the centers of pixels, whose other
- * end is `width` pixels wide: its red is 0 at the tip and 1 there, in the drawn picture. The
- * largest error, from 0 to 1. */
-static double sliver_error(double width)
-{
-    const double side = width * 4 * tan(acos(-1) / 9) / SIZE / sqrt(2); /* half of it */
-    const Vec3 corners[] = {{-1, -1, 0}, {1 + side, 1 - side, 0}, {1 - side, 1 + side, 0}};
-    double largest = 0;
-    assert_true(mesh_open(&made[0], 3, 3, NULL) && mesh_open_colors(&made[0], NULL));
-    for (size_t i = 0; i < 3; i++) {
-        made[0].indices[i] = (uint32_t)i;
-        vec3_to_float(corners[i], made[0].vertices[i].position);
-        vec3_to_float((Vec3){0, 0, 1}, made[0].vertices[i].normal);
-        made[0].colors[i][0] = i > 0;
-    }
-    hard_world(&world, &made[0]);
-    world.scene.background = (Vec3){0, 1, 0};
-    world.scene.global_ambient = (Vec3){1, 1, 1};
-    world.scene.light_count = 0;
-    hard_draw_finite(&world.scene, HARD_HIGHP);
-    for (int i = 0; i < SIZE; i++) {
-        const unsigned char *pixel =
-            (const unsigned char *)hard.image.pixels + 4 * ((SIZE - 1 - i) * SIZE + i);
-        const double at = (i + 0.5 - SIZE / 2.0) * 2 / SIZE * 4 * tan(acos(-1) / 9); /* -1 to 1 */
-        if (pixel[1] == 0)
-            largest = fmax(largest, fabs(pixel[0] / 255.0 - (at + 1) / 2));
-    }
-    forget_made(NULL);
-    return largest;
-}
-
-/* The quad's diagonal passes the centers of pixels. Clipping makes slivers along it, of any width,
- * which drivers draw whose corners are not on a grid; those that divide by the area are wrong
- * there.
- */
-static void leave_out_slivers(void)
-{
-    for (int bits = 6; bits < 18 && !hard.skip_diagonal; bits++) {
-        const double off = 255 * sliver_error(ldexp(1, -bits));
-        hard.skip_diagonal = off > 1;
-        if (hard.skip_diagonal)
-            print_message("not supported: colors in triangles 2^-%d of a pixel wide, %.0f steps "
-                          "off, which clipping makes of a quad: its diagonal is left out\n",
-                          bits, off);
-    }
-}
-
-TEST_WITH(0, an_object_may_fill_the_picture, NULL, forget_made)
-{
-    leave_out_slivers();
-    for (int i = 0; i < 2; i++) {
-        hard_world(&world, i ? &hard.sphere : &hard.quad);
-        world.scene.camera.fovy = 8;
-        check("filled", REACH, i ? SIZE * SIZE / 2 : SIZE * SIZE * 9 / 10);
-        hard_world(&world, &hard.quad);
-        world.scene.camera.eye = (Vec3){0.1, 0.1, 0.01 * (i + 1)};
-        world.scene.camera.near = 0.001;
-        world.scene.camera.center = (Vec3){0.1, 0.1, 0};
-        check("filled, near", FAR_OFF, SIZE * SIZE * 9 / 10);
-    }
-    hard.skip_diagonal = false;
-    hard_report("an object that fills the picture");
 }
 
 /* Triangles that contain few pixel centres: a fan, and random ones. */

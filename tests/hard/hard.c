@@ -61,8 +61,6 @@ void hard_exact(const Scene *scene, Reference *exact)
         .width = hard.bytes.width, .height = hard.bytes.height, .meshes = true};
     SUCCEEDS(scene_check(scene, message));
     SUCCEEDS(reference_open(exact, scene, &options, message));
-    for (int i = 0; hard.skip_diagonal && i < exact->height; i++)
-        exact->interior[(exact->height - 1 - i) * exact->width + i] = 0;
 }
 
 /* The value of channel `c`, counted over all pixels, from 0 to 1. */

@@ -18,7 +18,6 @@ typedef struct Hard {
     double worst[2], max[2]; /* since hard_report, by HardPrecision: the largest error of
                                 hard_check, and the loosest bound */
     int checked;             /* the number of pictures that hard_check has compared since */
-    bool skip_diagonal;      /* hard_exact leaves out the pixels from bottom left to top right */
 } Hard;
 extern Hard hard; /* of the test program */
 
