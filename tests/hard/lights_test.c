@@ -156,44 +156,6 @@ TEST(attenuation_of_any_size_is_finite)
     hard_report("attenuation of 1e-30 to 1e30");
 }
 
-FIXTURE(restore_size)
-{
-    if (hard.bytes.width != SIZE)
-        hard_resize(SIZE, SIZE);
-}
-
-/* A light moves away from the middle of a quad. Closer than a hundred times the last digit of the
- * position there, 4 / 2^24 or 4 / 2^11, its direction is only rounding. */
-TEST_WITH(0, light_never_grows_with_the_distance, NULL, restore_size)
-{
-    static const Vec3 factors[] = {{1, 0.5, 0}, {1, 0, 0.25}, {0, 1, 0}, {0, 0, 1}, {0.5, 1e-3, 1}};
-    static const double nearest[] = {400 * 0x1p-24, 400 * 0x1p-11};
-    enum { SMALL = 9 };
-    hard_resize(SMALL, SMALL);
-    for (int way = 0; way < 4; way++) {
-        const HardPrecision precision = way & 1 ? HARD_MEDIUMP : HARD_HIGHP;
-        for (size_t i = 0; i < sizeof factors / sizeof factors[0]; i++) {
-            int last = 255;
-            for (double distance = nearest[precision]; distance < 200; distance *= 1.7) {
-                hard_world(&world, &hard.quad);
-                world.scene.interpolation = way & 2 ? INTERPOLATION_GOURAUD : INTERPOLATION_PHONG;
-                world.lights[0].position = (Vec3){0, 0, distance};
-                world.lights[0].specular = world.lights[0].ambient = (Vec3){0, 0, 0};
-                world.lights[0].constant = factors[i].x;
-                world.lights[0].linear = factors[i].y;
-                world.lights[0].quadratic = factors[i].z;
-                hard_draw_finite(&world.scene, precision);
-                const int now = ((unsigned char *)hard.image.pixels)[4 * (SMALL * SMALL / 2)];
-                /* At the corners the light becomes less oblique as it moves away. */
-                if (now > last && !(way & 2))
-                    fail_msg("attenuation %zu, precision %d: %d at distance %g, %d nearer", i,
-                             precision, now, distance, last);
-                last = now;
-            }
-        }
-    }
-}
-
 /* Compares every pixel of the object at its centre: within `max` steps of the exact colour, except
  * where the cosine of its angle from the axis is within `margin` of the cone's edge. */
 static double compare_centres(HardPrecision precision, double margin, int *compared)
