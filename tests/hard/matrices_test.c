@@ -156,58 +156,6 @@ DRAWN_TEST(singular_model_is_drawn_flat)
     }
 }
 
-static double distance_at(const Reference *exact, int pixel)
-{
-    const unsigned char *byte = (const unsigned char *)hard.image.pixels + 4 * pixel;
-    double max = 0;
-    for (int c = 0; c < 3; c++)
-        max = fmax(max, fabs(byte[c] - 255 * (double)exact->color[3 * pixel + c]));
-    return max;
-}
-
-/* Both sides of a flattened open solid have the same depth: each pixel shows one of them, the same
- * one in every frame. */
-DRAWN_TEST(singular_model_shows_one_of_its_sides)
-{
-    static HardFrame first, again;
-    for (int i = 0; i < 3; i++) {
-        HardWorld world;
-        Mesh sides[2];
-        Reference exact[2];
-        int inside = 0;
-        make_flat(&world, &sphere, i);
-        for (int k = 0; k < 2; k++) {
-            world.objects[0].mesh = &sphere;
-            sides[k] = side_of(&world, k == 0);
-            world.objects[0].mesh = &sides[k];
-            hard_exact(&world.scene, &exact[k]);
-        }
-        world.objects[0].mesh = &sphere;
-        world.objects[0].closed = false;
-        for (HardPrecision precision = HARD_HIGHP; precision <= HARD_MEDIUMP; precision++) {
-            const double max = hard_two_lights_max(&world.scene, precision);
-            assert_true(hard_draw(&world.scene, precision, exact).not_finite == 0);
-            hard_keep(&first);
-            for (int p = 0; p < SIZE * SIZE; p++) {
-                if (!exact[0].interior[p] || !exact[1].interior[p])
-                    continue;
-                inside++;
-                if (fmin(distance_at(&exact[0], p), distance_at(&exact[1], p)) > max)
-                    fail_msg("%s: pixel %d, %d is of neither side", FLAT[i].name, p % SIZE,
-                             p / SIZE);
-            }
-            hard_draw(&world.scene, precision, exact);
-            hard_keep(&again);
-            assert_memory_equal(&again, &first, sizeof first);
-        }
-        assert_true(inside > 200);
-        for (int k = 0; k < 2; k++) {
-            reference_close(&exact[k]);
-            mesh_close(&sides[k]);
-        }
-    }
-}
-
 /* Rank 1 or 0. */
 
 /* Whether a pixel of the last pictures has exactly this color. */
