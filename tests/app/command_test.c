@@ -226,19 +226,6 @@ COMMAND_TEST(it_begins_as_the_program_was_started)
     unsetenv("LIGHTING_RUN");
 }
 
-COMMAND_TEST(frames_are_written_if_given)
-{
-    Options options = plain_options(&example);
-    options.output = "turn%03d.png";
-    options.output_given = options.numbered = true;
-    assert_command(&options, "Example --output turn%03d.png --frames 1");
-    options.frames = 90;
-    options.fps = 24.5;
-    options.orbit = (Orbit){.distance = 0.25};
-    assert_command(&options,
-                   "Example --output turn%03d.png --frames 90 --fps 24.5 --orbit 0,0,0.25");
-}
-
 COMMAND_TEST(a_program_without_a_scene_has_no_scene_options)
 {
     const Example lecture = {.name = "Lecture"};
