@@ -266,24 +266,6 @@ TEST_WITH(0, facts_decide, make_world, NULL)
     }
 }
 
-/* What was decided before is found by its bytes. */
-TEST_WITH(0, a_program_is_written_once, make_world, NULL)
-{
-    use_shadows(SHADOWS_OFF);
-    draw(&plan);
-    world.scene.linear = true;
-    draw(&plan);
-    const LightingCounts before = lighting_counts(lighting);
-    const long long decisions = plan.decisions;
-    for (int i = 0; i < 4; i++) {
-        world.scene.linear = !world.scene.linear;
-        draw(&plan);
-    }
-    assert_int_equal(lighting_counts(lighting).texts, before.texts);
-    assert_int_equal(lighting_counts(lighting).programs, before.programs);
-    assert_int_equal(plan.decisions, decisions + 4 * OBJECTS);
-}
-
 TEST_WITH(0, a_shadow_is_planned_when_it_falls, make_world, NULL)
 {
     static const ShadowWay ways[] = {SHADOWS_VOLUMES, SHADOWS_MAP};
