@@ -6,12 +6,6 @@
 #include "scene/quality.h"
 #include "support/testing.h"
 
-#define assert_says(message, part)                                                                 \
-    do {                                                                                           \
-        if (!strstr((message).text, part))                                                         \
-            fail_msg("\"%s\" does not say \"%s\"", (message).text, part);                          \
-    } while (0)
-
 TEST(usual_settings_are_what_the_axes_say)
 {
     const Quality usual = quality_usual();
@@ -67,17 +61,13 @@ TEST(invalid_settings_are_refused_by_name)
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         Quality setting;
-        Message message = {0};
-        assert_false(quality_parse(&setting, cases[i].text, &message));
-        assert_says(message, cases[i].said);
+        FAILS_WITH(quality_parse(&setting, cases[i].text, message), cases[i].said);
     }
     char endless[2000];
     memset(endless, 'x', sizeof endless - 1);
     endless[sizeof endless - 1] = '\0';
     Quality setting;
-    Message message = {0};
-    assert_false(quality_parse(&setting, endless, &message));
-    assert_says(message, "too long");
+    FAILS_WITH(quality_parse(&setting, endless, message), "too long");
 }
 
 /* A sphere twice and a box, a point light with attenuation and a directional light. */
@@ -262,15 +252,10 @@ TEST(solids_are_meshed_as_finely_as_asked)
 TEST(solids_out_of_range_are_refused)
 {
     const Solid none = {.kind = SOLID_NONE}, sphere = {.kind = SOLID_SPHERE, .radius = 1};
-    Message message = {0};
     Mesh mesh;
-    assert_false(solid_mesh(&none, 8, &mesh, &message));
-    assert_says(message, "formula");
-    message = (Message){0};
-    assert_false(solid_mesh(&sphere, 2, &mesh, &message));
-    assert_says(message, "2 divisions");
-    message = (Message){0};
-    assert_false(solid_mesh(&sphere, 100000, &mesh, &message));
+    FAILS_WITH(solid_mesh(&none, 8, &mesh, message), "formula");
+    FAILS_WITH(solid_mesh(&sphere, 2, &mesh, message), "2 divisions");
+    FAILS_WITH(solid_mesh(&sphere, 100000, &mesh, message), "");
     assert_null(mesh.vertices);
 }
 
