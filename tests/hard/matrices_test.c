@@ -1,7 +1,7 @@
 /*
- * Hard cases of model matrices: singular ones, mirrors, scales of any size, rotations about a zero
- * axis. First the functions' results, then the pictures, in both precisions, lit at vertices and at
- * fragments. LIGHTING_TEST_SEED in the environment replaces the seed.
+ * Hard cases of model matrices: singular ones, scales of any size. First the functions' results,
+ * then the pictures, in both precisions, lit at vertices and at fragments. LIGHTING_TEST_SEED in
+ * the environment replaces the seed.
  */
 #include "core/mesh_make.h"
 #include "hard/hard.h"
@@ -12,7 +12,7 @@
 enum { SIZE = 64, SLICES = 48 };
 
 static unsigned long long seed;
-static Mesh sphere, cube, torus, teapot, quad, sideways;
+static Mesh sphere, cube, quad, sideways;
 
 /* Matrices. */
 
@@ -40,7 +40,7 @@ static const Vec3 BACKGROUND = {0.2, 0.4, 0.6};
 static void make_world(HardWorld *world, const Mesh *mesh, Mat4 world_from_object)
 {
     hard_two_lights(world, mesh, world_from_object);
-    world->objects[0].closed = mesh != &quad && mesh != &sideways && mesh != &teapot;
+    world->objects[0].closed = mesh != &quad && mesh != &sideways;
     world->objects[0].flat = mesh == &cube || mesh == &quad;
 }
 
@@ -224,67 +224,6 @@ DRAWN_TEST(rank_1_or_0_is_ambient)
     hard_each_way("normals that the wrong matrix loses", &world, check_some_ambient);
 }
 
-/* Mirror. */
-
-static Vec3 mirror(Vec3 v)
-{
-    return (Vec3){-v.x, v.y, v.z};
-}
-
-static void check_mirrored(const char *name, HardWorld *world, HardPrecision precision,
-                           const Reference *exact)
-{
-    static HardFrame frame, mirrored;
-    HardWorld other = *world;
-    int edges = 0;
-    hard_world_settle(&other);
-    other.scene.camera.eye = mirror(world->scene.camera.eye);
-    other.scene.camera.center = mirror(world->scene.camera.center);
-    for (int i = 0; i < 2; i++) {
-        other.lights[i].position = mirror(world->lights[i].position);
-        other.lights[i].direction = mirror(world->lights[i].direction);
-    }
-    other.objects[0].world_from_object =
-        mat4_product(scale(-1, 1, 1), world->objects[0].world_from_object);
-    check_exact(name, world, precision, exact);
-    hard_keep(&frame);
-    /* The exact picture does not belong to this one: only finite values count. */
-    assert_true(hard_draw(&other.scene, precision, exact).not_finite == 0);
-    hard_keep(&mirrored);
-    for (int i = 0; i < SIZE * SIZE; i++) {
-        const int j = i / SIZE * SIZE + SIZE - 1 - i % SIZE,
-                  steps = hard_apart(&frame, i, &mirrored, j);
-        if (steps > 1 && exact->interior[i])
-            fail_msg("%s: (%d, %d) is %d steps from its mirror's", name, i % SIZE, i / SIZE, steps);
-        edges += steps > 1;
-    }
-    /* Pixels through whose centre an edge passes, within the driver's grid of 1/256 of a pixel: at
-     * most one or two of an outline of 200 pixels. */
-    if (edges > 4)
-        fail_msg("%s: %d pixels of edges differ from their mirrors", name, edges);
-}
-
-DRAWN_TEST(mirror_draws_the_flipped_picture)
-{
-    static const Mesh *const meshes[] = {&sphere, &cube, &torus, &teapot, &quad};
-    static const char *const names[] = {"sphere", "cube", "torus", "teapot", "quad"};
-    for (int k = 0; k < 5; k++) {
-        for (int sides = 1; sides <= 2; sides++) {
-            HardWorld world;
-            char name[64];
-            make_world(
-                &world, meshes[k],
-                mat4_product(turn(k == 4 ? 140 : 35, (Vec3){0.3, 1, 0.2}), scale(0.9, 0.7, 1.1)));
-            world.objects[0].two_sided = sides == 2;
-            world.objects[0].closed = world.objects[0].closed && sides == 1;
-            world.scene.camera.eye = (Vec3){0.7, 1, 4};
-            world.scene.reflection = k % 2 ? REFLECTION_PHONG : REFLECTION_BLINN_PHONG;
-            snprintf(name, sizeof name, "mirrored %s, %d-sided", names[k], sides);
-            hard_each_way(name, &world, check_mirrored);
-        }
-    }
-}
-
 /* Tiny or huge scale. */
 
 static void make_scaled(HardWorld *world, double s)
@@ -373,18 +312,16 @@ FIXTURE(open_all)
 {
     hard_open(SIZE, SIZE);
     SUCCEEDS(mesh_sphere(&sphere, 1, SLICES, SLICES, message) && mesh_cube(&cube, 0.6, message) &&
-             mesh_torus(&torus, 0.3, 0.8, SLICES / 2, SLICES, message) &&
-             mesh_teapot(&teapot, 0.7, 6, message) && mesh_quad(&quad, 4, message) &&
-             mesh_quad(&sideways, 4, message));
+             mesh_quad(&quad, 4, message) && mesh_quad(&sideways, 4, message));
     for (size_t i = 0; i < sideways.vertex_count; i++)
         memcpy(sideways.vertices[i].normal, (const float[]){1, 0, 0}, sizeof(float[3]));
 }
 
 FIXTURE(close_all)
 {
-    Mesh *const meshes[] = {&sphere, &cube, &torus, &teapot, &quad, &sideways};
+    Mesh *const meshes[] = {&sphere, &cube, &quad, &sideways};
     hard_close();
-    for (int i = 0; i < 6; i++)
+    for (int i = 0; i < 4; i++)
         mesh_close(meshes[i]);
 }
 
