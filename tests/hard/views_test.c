@@ -1,6 +1,5 @@
 /*
- * Hard cases of views and projections: degenerate and nearly degenerate cameras, projections out of
- * range or without a far plane, and scenes far from the origin.
+ * Hard cases of views and projections: without a far plane, and scenes far from the origin.
  */
 #include "hard/hard.h"
 #include "shapes/mesh_solids.h"
@@ -49,47 +48,6 @@ static int apart(const HardFrame *a, const HardFrame *b, const Reference *exact,
             *edges += steps > 1;
     }
     return max;
-}
-
-TEST(look_at_nearly_parallel_draws_the_exact_picture)
-{
-    static const double angles[] = {1e-2, 1e-4, 1e-6, 1e-8, 1e-12, 1e-15};
-    static const Vec3 eyes[] = {{0, 4.5, 0}, {0.5, 4, 1.5}};
-    static HardFrame upright, frame;
-    for (int k = 0; k < 2; k++) {
-        HardWorld world;
-        Vec3 back, across, side;
-        Reference exact;
-        make_world(&world);
-        Camera *camera = &world.scene.camera;
-        camera->eye = eyes[k];
-        assert_true(vec3_normalize(eyes[k], &back));
-        assert_true(vec3_normalize(vec3_cross((Vec3){0.6, 0, -0.8}, back), &side));
-        across = vec3_cross(back, side);
-        camera->up = across;
-        hard_exact(&world.scene, &exact);
-        check_exact("upright", &world, HARD_HIGHP, &exact);
-        hard_keep(&upright);
-        for (int i = 0; i < 6; i++) {
-            char name[32];
-            int edges;
-            snprintf(name, sizeof name, "up %g from the view", angles[i]);
-            camera->up =
-                vec3_add(vec3_scale(back, cos(angles[i])), vec3_scale(across, sin(angles[i])));
-            world.scene.interpolation = INTERPOLATION_PHONG;
-            /* The exact picture uses `up` as rounded, whatever the angle. */
-            hard_each_way(name, &world, check_exact);
-            world.scene.interpolation = INTERPOLATION_PHONG;
-            /* Down to 1e-12 the rounding rolls it by at most 1e-3, 1/30 of a pixel. */
-            if (angles[i] < 1e-12)
-                continue;
-            check_exact(name, &world, HARD_HIGHP, &exact);
-            hard_keep(&frame);
-            if (apart(&frame, &upright, &exact, &edges) > 1 || edges > 8)
-                fail_msg("%s: not as upright, %d pixels of edges", name, edges);
-        }
-        reference_close(&exact);
-    }
 }
 
 /* Perspective. */
