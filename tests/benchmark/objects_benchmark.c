@@ -1,10 +1,10 @@
 /*
- * What a scene's objects cost the processor, which is to submit them: of few pixels, drawn by
- * lighting and by a loop as one writes it by hand, which looks uniforms up once, sets those of the
- * lights once a frame, and for each object its matrices and products of colors; a million triangles
- * in the same two ways. And scenes of files, and of this one, by their programs over the full one.
+ * What a scene's objects cost the processor: a thousand of a thousand triangles, drawn by lighting
+ * and by a loop as one writes it by hand, which looks uniforms up once, sets those of the lights
+ * once a frame, and for each object its matrices and products of colors. And scenes of files, and
+ * of cubes, by their programs over the full one.
  *
- * An argument is the only table to be made: objects, triangles or scenes.
+ * An argument is the only table to be made: triangles or scenes.
  */
 #include "benchmark/bench.h"
 #include "core/canvas.h"
@@ -17,7 +17,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { SIZE = 32, ROUNDS = 5, MOST_OBJECTS = 10000, MOST_LIGHTS = 8, AT_LEAST = 1000 };
+enum { SIZE = 32, ROUNDS = 5, MOST_OBJECTS = 1000, MOST_LIGHTS = 8 };
 
 static Lighting *lighting;
 static Mesh cube, ball;
@@ -62,7 +62,7 @@ static void make_scene(int object_count, int light_count)
                     .light_count = light_count,
                     .objects = objects,
                     .object_count = object_count};
-    frames = object_count < AT_LEAST ? AT_LEAST / object_count : 1;
+    frames = 1;
 }
 
 /* An argument: by the full program. */
@@ -177,18 +177,6 @@ static bool measure_both(Table *table, int object_count, int light_count, double
     return done;
 }
 
-static bool measure_objects(Message *message)
-{
-    Table table;
-    bool done = true;
-    table_open(&table, "objects|lights|loop, µs an object|lighting, µs an object|over the loop");
-    for (int count = 1; count <= MOST_OBJECTS && done; count *= 10)
-        for (int light_count = 1; light_count <= MOST_LIGHTS && done; light_count *= 2)
-            done = measure_both(&table, count, light_count, 1e6 / count, message);
-    bench_print("objects", &table);
-    return done;
-}
-
 /* 1000 objects of 1008 triangles. */
 static bool measure_triangles(Message *message)
 {
@@ -288,7 +276,6 @@ static bool run(Message *message)
 {
     return lighting_open(&lighting, &(ShaderLoader){0}, message) &&
            mesh_cube(&cube, 0.1, message) && mesh_sphere(&ball, 0.05, 24, 22, message) &&
-           (!asked("objects") || measure_objects(message)) &&
            (!asked("triangles") || measure_triangles(message)) &&
            (!asked("scenes") || measure_scenes(message));
 }
