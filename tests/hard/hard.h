@@ -88,38 +88,6 @@ typedef struct HardWorld {
 } HardWorld;
 void hard_world(HardWorld *world, const Mesh *mesh);
 
-/* One object, a point light and a directional light; every color stays below 1. */
-void hard_two_lights(HardWorld *world, const Mesh *mesh, Mat4 world_from_object);
-
-/* The largest error of an interior pixel in the scene of hard_two_lights; derived in hard.c. */
-double hard_two_lights_max(const Scene *scene, HardPrecision precision);
-
-/* hard_check_exact of such a scene, with that bound. */
-void hard_check_two_lights(const char *name, const Scene *scene, HardPrecision precision,
-                           const Reference *exact);
-
-/* Each way to light, in either precision; `exact` is the picture of the world as given. */
-typedef void HardCheck(const char *name, HardWorld *world, HardPrecision precision,
-                       const Reference *exact);
-void hard_each_way(const char *name, HardWorld *world, HardCheck *check);
-
-/* A copy of the last pictures, of at most 64 by 64 pixels. */
-typedef struct HardFrame {
-    unsigned char bytes[64 * 64 * 4];
-    float reals[64 * 64 * 4];
-} HardFrame;
-void hard_keep(HardFrame *frame);
-
-/* The largest difference of a channel, in bytes, between two pixels of frames. */
-int hard_apart(const HardFrame *a, int pixel, const HardFrame *b, int other);
-
-/* Changes the unit of length: positions of lights and camera, attenuation, near and far plane; not
- * the objects. */
-void hard_world_scale(HardWorld *world, double factor);
-
-/* After a copy: points the scene to the copy's lights and objects. */
-void hard_world_settle(HardWorld *world);
-
 /* hard_check in both precisions, lit at the fragments and at the vertices: within 1 step in highp,
  * within oracle_mediump_max for mediump fragments. At the vertices, which are always highp, mediump
  * affects only colours: 1.5 steps. */

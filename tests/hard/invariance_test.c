@@ -1,8 +1,8 @@
 /*
- * Invariances: random scenes are translated, rotated, mirrored and scaled, their lights permuted
- * and split, their triangles reordered, the picture widened; interior pixels, compared as floats,
- * stay the same. HARD_SEED and
- * HARD_SCENES in the environment choose other scenes.
+ * Invariances: random scenes are translated, rotated, mirrored and scaled, their far plane moved,
+ * their lights permuted and split, their triangles reordered, the picture widened; interior pixels,
+ * compared as floats, stay the same. HARD_SEED and HARD_SCENES in the environment choose other
+ * scenes.
  */
 #include "core/mesh_make.h"
 #include "hard/random_scene.h"
@@ -115,6 +115,13 @@ static void scale(RandomScene *scene, Random *random)
     }
 }
 
+/* Depth alone changes, and nothing is beyond any of them. */
+static void move_far_plane(RandomScene *scene, Random *random)
+{
+    static const double fars[] = {1e3, 1e9, 1e300, (double)INFINITY};
+    scene->scene.camera.far = fars[random_below(random, 4)];
+}
+
 static void permute_lights(RandomScene *scene, Random *random)
 {
     for (int i = scene->scene.light_count - 1; i > 0; i--) {
@@ -150,6 +157,7 @@ static const Change CHANGES[] = {
     {"turned", turn, false, 0.35},
     {"mirrored", mirror, true, 0.35},
     {"scaled", scale, false, 0.35},
+    {"far plane moved", move_far_plane, false, 0},
     {"lights permuted", permute_lights, false, 0.1},
     {"a light split", split_light, false, 0.1},
 };

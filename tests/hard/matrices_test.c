@@ -6,6 +6,7 @@
 #include "core/mesh_make.h"
 #include "hard/hard.h"
 #include "shapes/mesh_solids.h"
+#include "support/oracle.h"
 #include "support/picture_check.h"
 #include "support/testing.h"
 
@@ -34,33 +35,75 @@ static Mat4 random_rotation(Random *random)
     return turn(random_between(random, -180, 180), axis);
 }
 
-/* The background of hard_two_lights. */
 static const Vec3 BACKGROUND = {0.2, 0.4, 0.6};
 
+/* One object, a point light and a directional light; every color stays below 1. */
 static void make_world(HardWorld *world, const Mesh *mesh, Mat4 world_from_object)
 {
-    hard_two_lights(world, mesh, world_from_object);
-    world->objects[0].closed = mesh != &quad && mesh != &sideways;
-    world->objects[0].flat = mesh == &cube || mesh == &quad;
+    hard_world(world, mesh);
+    world->lights[0] = (Light){.kind = LIGHT_POINT,
+                               .position = {2, 3, 4},
+                               .diffuse = {0.5, 0.5, 0.5},
+                               .specular = {0.3, 0.3, 0.3}};
+    world->lights[1] =
+        (Light){.kind = LIGHT_DIRECTIONAL, .direction = {-1, 1, 1}, .diffuse = {0.2, 0.1, 0}};
+    world->objects[0] =
+        (Object){.mesh = mesh,
+                 .closed = mesh != &quad && mesh != &sideways,
+                 .flat = mesh == &cube || mesh == &quad,
+                 .world_from_object = world_from_object,
+                 .front = {{1, 0.8, 0.6}, {1, 0.9, 0.5}, {1, 1, 1}, {0, 0, 0}, 1, 8},
+                 .back = {{0.5, 1, 1}, {0.3, 0.6, 1}, {1, 0.5, 0.5}, {0, 0, 0}, 1, 8}};
+    world->scene.camera = (Camera){{0, 1, 4}, {0, 0, 0}, {0, 1, 0}, 35, 1, 20, 0};
+    world->scene.background = BACKGROUND;
+    world->scene.global_ambient = (Vec3){0.2, 0.2, 0.2};
+    world->scene.light_count = 2;
 }
 
-/* The picture is exact. */
+/* The picture is exact. In highp within half a step of rounding, and floats. In mediump lit at the
+ * vertices in highp: the varying is rounded when written and when read. Eye and light are at most
+ * 4.7 apart, no point is farther than 6 from the eye or nearer than 4.1 to the light. */
 static void check_exact(const char *name, HardWorld *world, HardPrecision precision,
                         const Reference *exact)
 {
-    hard_check_two_lights(name, &world->scene, precision, exact);
+    static const double REACH = 3.6;
+    const double max = precision == HARD_HIGHP ? 1
+                       : world->scene.interpolation == INTERPOLATION_PHONG
+                           ? oracle_mediump_max(&world->scene, REACH)
+                           : 255 * 2 * ORACLE_MEDIUMP_UNIT + 0.5;
+    hard_check_exact(name, &world->scene, (HardBound){precision, max, 100}, exact);
 }
 
 /* And the same when drawn again. */
 static void check_steady(const char *name, HardWorld *world, HardPrecision precision,
                          const Reference *exact)
 {
-    static HardFrame first, again;
+    static unsigned char bytes[4 * SIZE * SIZE];
+    static float reals[4 * SIZE * SIZE];
+    const bool real = hard.real.type == IMAGE_FLOAT;
     check_exact(name, world, precision, exact);
-    hard_keep(&first);
+    memcpy(bytes, hard.image.pixels, sizeof bytes);
+    if (real)
+        memcpy(reals, hard.real.pixels, sizeof reals);
     check_exact(name, world, precision, exact);
-    hard_keep(&again);
-    assert_memory_equal(&again, &first, sizeof first);
+    assert_memory_equal(bytes, hard.image.pixels, sizeof bytes);
+    assert_true(!real || memcmp(reals, hard.real.pixels, sizeof reals) == 0);
+}
+
+/* Lit at the fragments and at the vertices, in either precision; `exact` is the picture of the
+ * world as given. */
+typedef void Check(const char *name, HardWorld *world, HardPrecision precision,
+                   const Reference *exact);
+static void each_way(const char *name, HardWorld *world, Check *check)
+{
+    static const Interpolation ways[] = {INTERPOLATION_PHONG, INTERPOLATION_GOURAUD};
+    for (int way = 0; way < 2; way++) {
+        CLOSED(reference_close) Reference exact;
+        world->scene.interpolation = ways[way];
+        hard_exact(&world->scene, &exact);
+        check(name, world, HARD_HIGHP, &exact);
+        check(name, world, HARD_MEDIUMP, &exact);
+    }
 }
 
 /* Singular model matrix. */
@@ -135,14 +178,15 @@ DRAWN_TEST(singular_model_is_drawn_flat)
             snprintf(name, sizeof name, "%s of a %s", FLAT[i].name, names[k]);
             make_flat(&world, meshes[k], i);
             if (!world.objects[0].closed) {
-                hard_each_way(name, &world, check_steady);
+                each_way(name, &world, check_steady);
                 continue;
             }
             /* A solid shows the side towards the eye. */
             front = side_of(&world, true);
             shown = world;
             shown.objects[0].mesh = &front;
-            hard_world_settle(&shown);
+            shown.scene.lights = shown.lights;
+            shown.scene.objects = shown.objects;
             for (int way = 0; way < 2; way++) {
                 CLOSED(reference_close) Reference exact;
                 shown.scene.interpolation = way ? INTERPOLATION_GOURAUD : INTERPOLATION_PHONG;
@@ -209,22 +253,39 @@ DRAWN_TEST(rank_1_or_0_is_ambient)
     for (int i = 0; i < 4; i++) {
         make_world(&world, i % 2 ? &sphere : &cube,
                    mat4_product(turn(i * 20, (Vec3){0.3, 1, 0.2}), lost[i]));
-        hard_each_way("rank 1 or 0", &world, check_ambient_line);
+        each_way("rank 1 or 0", &world, check_ambient_line);
         world.objects[0].two_sided = true;
         world.objects[0].closed = false;
         world.objects[0].back = world.objects[0].front;
-        hard_each_way("rank 1 or 0, two-sided", &world, check_ambient_line);
+        each_way("rank 1 or 0, two-sided", &world, check_ambient_line);
     }
     /* A flattened square that keeps its area, with normals in its plane: all become zero. */
     make_world(&world, &sideways, scale(1, 1, 0));
-    hard_each_way("normals that a flat model loses", &world, check_some_ambient);
+    each_way("normals that a flat model loses", &world, check_some_ambient);
     /* With the wrong matrix for normals, those of the plane itself become zero too. */
     make_world(&world, &quad, scale(1, 1, 0));
     world.objects[0].wrong_normals = true;
-    hard_each_way("normals that the wrong matrix loses", &world, check_some_ambient);
+    each_way("normals that the wrong matrix loses", &world, check_some_ambient);
 }
 
 /* Tiny or huge scale. */
+
+/* Changes the unit of length: positions of lights and camera, attenuation, near and far plane; not
+ * the objects. */
+static void scale_world(HardWorld *world, double factor)
+{
+    Camera *camera = &world->scene.camera;
+    camera->eye = vec3_scale(camera->eye, factor);
+    camera->center = vec3_scale(camera->center, factor);
+    camera->near *= factor;
+    camera->far *= factor;
+    for (int i = 0; i < world->scene.light_count; i++) {
+        Light *light = &world->lights[i];
+        light->position = vec3_scale(light->position, factor);
+        light->linear /= factor;
+        light->quadratic /= factor * factor;
+    }
+}
 
 static void make_scaled(HardWorld *world, double s)
 {
@@ -232,7 +293,7 @@ static void make_scaled(HardWorld *world, double s)
     world->lights[0].constant = 0.5;
     world->lights[0].linear = 0.05;
     world->lights[0].quadratic = 0.01;
-    hard_world_scale(world, s);
+    scale_world(world, s);
     world->objects[0].world_from_object =
         mat4_product(scale(s, s, s), world->objects[0].world_from_object);
 }
