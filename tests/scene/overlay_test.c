@@ -40,29 +40,6 @@ static Vec3 line_of(const OverlayList *list, int number)
                          vec3_from_float(list->vertices[2 * number].position));
 }
 
-/* Perpendicular to each other, and towards the outside. */
-TEST(a_cube_has_three_normals_at_each_corner)
-{
-    CLOSED(mesh_close) Mesh cube;
-    SUCCEEDS(mesh_cube(&cube, 1, message));
-    const Object object = {.mesh = &cube, .world_from_object = mat4_scale((Vec3){3, 1, 2})};
-    CLOSED(overlay_list_close) OverlayList list = normals_of(&object, INTERPOLATION_PHONG);
-    assert_int_equal(list.count, 2 * 24);
-    for (int i = 0; i < 24; i++) {
-        const Vec3 foot = vec3_from_float(list.vertices[2 * i].position), own = line_of(&list, i);
-        int here = 0;
-        assert_true(vec3_dot(foot, own) > 0);
-        for (int k = 0; k < 24; k++) {
-            if (memcmp(list.vertices[2 * k].position, list.vertices[2 * i].position,
-                       sizeof list.vertices[0].position) != 0)
-                continue;
-            here++;
-            assert_true(k == i || fabs(vec3_dot(own, line_of(&list, k))) < 1e-6); /* floats */
-        }
-        assert_int_equal(here, 3);
-    }
-}
-
 /* Whatever the object is turned and scaled by; wrong ones are not; a back has the opposite ones. */
 TEST(normals_are_perpendicular_to_the_face_and_a_back_has_its_own)
 {
