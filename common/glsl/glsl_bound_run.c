@@ -94,6 +94,13 @@ static void narrow(GlslBoundRun *run, int condition, bool yes, bool near)
         replace(run, of[1], high[0], high[1]);
 }
 
+/* Reading may move the entries. */
+static const Entry *read_entry(GlslBoundRun *run, int at)
+{
+    const int read = tape_read(run, at);
+    return &run->state->entries[read];
+}
+
 /* Runs one way of a branch; its registers are put into `map`. False: it ends before. */
 static bool run_way(GlslBoundRun *run, const GlslInstruction *branch, int next, bool yes, bool near,
                     int *map)
@@ -195,7 +202,7 @@ static int joined(GlslBoundRun *run, int a, int b, double error, int node)
 static void run_element(GlslBoundRun *run, const GlslInstruction *at)
 {
     State *state = run->state;
-    const Entry address = state->entries[tape_read(run, at->b)];
+    const Entry address = *read_entry(run, at->b);
     const bool loads = at->op == OP_LOAD;
     const int base = loads ? at->a : at->d;
     const int first = base + (int)hull(address.exact, address.driver).low;
@@ -243,7 +250,7 @@ static void run_texture(GlslBoundRun *run, const GlslInstruction *at)
     GlslRange places[16], color[4] = {{0, 1}, {0, 1}, {0, 1}, {0, 1}};
     const int count = at->n < 16 ? at->n : 16, unit = tape_read(run, at->a);
     for (int i = 0; i < count; i++) {
-        const Entry *place = &state->entries[tape_read(run, at->b + i)];
+        const Entry *place = read_entry(run, at->b + i);
         places[i] = place->exact;
     }
     if (run->texture)
@@ -310,7 +317,7 @@ static int run_from(GlslBoundRun *run, int next, int until)
         else if (at->op == OP_JUMP)
             next = at->d;
         else if (at->op == OP_JUMP_FALSE) {
-            const int ways = ways_of(&state->entries[tape_read(run, at->a)]);
+            const int ways = ways_of(read_entry(run, at->a));
             next = (ways & ~EDGE) == BOTH_FIRST    ? next
                    : (ways & ~EDGE) == BOTH_SECOND ? at->d
                                                    : run_branch(run, at, next);
