@@ -1,6 +1,7 @@
 /* The functions, variables and constants that the language has. */
 #include "glsl/glsl_parser.h"
 
+#include <pthread.h>
 #include <string.h>
 
 enum { VERTEX = 1 << GLSL_VERTEX, FRAGMENT = 1 << GLSL_FRAGMENT, BOTH = VERTEX | FRAGMENT };
@@ -97,15 +98,18 @@ static const char *const WORDS[] = {
     "sampler1D", "sampler3D", "sampler1DShadow", "sampler2DShadow", "sampler2DRect",
     "sampler3DRect", "sampler2DRectShadow", "sizeof", "cast", "namespace", "using"};
 
-static int find(Parser *parser, const char *name)
+/* A word of the language, whose text is there as long as any tree. */
+static int find(Names *names, const char *word)
 {
-    return names_find(&parser->names, name, (int)strlen(name));
+    const int name = names_find(names, word, (int)strlen(word));
+    names->items[name].kept = word;
+    return name;
 }
 
 static int add_variable(Parser *parser, const char *name, int type, int storage, int precision)
 {
-    const int symbol =
-        symbol_bind(parser, symbol_new(parser, find(parser, name), (GlslPlace){0}, GLSL_VARIABLE));
+    const int symbol = symbol_bind(
+        parser, symbol_new(parser, find(&parser->names, name), (GlslPlace){0}, GLSL_VARIABLE));
     GlslSymbol *variable = &parser->tree->symbols[symbol];
     variable->type = type;
     variable->storage = (unsigned char)storage;
@@ -141,25 +145,36 @@ static void add_depth_range(Parser *parser)
 {
     static const char *const FIELDS[] = {"near", "far", "diff"};
     GlslTree *tree = parser->tree;
-    const int name = find(parser, "gl_DepthRangeParameters");
+    const int name = find(&parser->names, "gl_DepthRangeParameters");
     const int symbol = symbol_bind(parser, symbol_new(parser, name, (GlslPlace){0}, GLSL_STRUCT));
     const int type = type_struct(tree, tree->symbols[symbol].name);
     tree->symbols[symbol].type = type;
     tree->symbols[symbol].built_in = true;
     for (int i = 0; i < 3; i++)
-        type_add_field(tree, type, keep_name(parser, find(parser, FIELDS[i])), GLSL_FLOAT,
+        type_add_field(tree, type, keep_name(parser, find(&parser->names, FIELDS[i])), GLSL_FLOAT,
                        GLSL_HIGHP);
     add_variable(parser, "gl_DepthRange", type, GLSL_UNIFORM, GLSL_NO_PRECISION);
 }
 
-void intern_words(Parser *parser)
+static Names all_words; /* which each text begins with */
+
+static void make_words(void)
 {
+    names_open(&all_words);
     for (size_t i = 0; i < sizeof WORDS / sizeof WORDS[0]; i++)
-        parser->words = find(parser, WORDS[i]) + 1;
+        find(&all_words, WORDS[i]);
     for (int i = GLSL_FUNCTION_COUNT - 1; i >= 0; i--) {
-        const int name = find(parser, GLSL_FUNCTIONS[i].name);
-        parser->names.items[name].function = i + 1;
+        const int name = find(&all_words, GLSL_FUNCTIONS[i].name);
+        all_words.items[name].function = i + 1;
     }
+}
+
+void open_words(Parser *parser)
+{
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, make_words);
+    names_copy(&parser->names, &all_words);
+    parser->words = (int)(sizeof WORDS / sizeof WORDS[0]) + 1;
 }
 
 void declare_built_ins(Parser *parser)

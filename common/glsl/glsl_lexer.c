@@ -15,6 +15,14 @@ void names_open(Names *names)
     *(Name *)memory_add(&names->items, &names->count, &names->room, sizeof(Name)) = (Name){0};
 }
 
+void names_copy(Names *names, const Names *from)
+{
+    *names = *from;
+    names->items = memory_grow(NULL, (size_t)from->room, sizeof(Name));
+    memcpy(names->items, from->items, (size_t)from->count * sizeof(Name));
+    names->hashed = memory_copy(from->hashed, HASHES * sizeof(int));
+}
+
 void names_close(Names *names)
 {
     free(names->items);

@@ -75,7 +75,7 @@ int symbol_new(Parser *parser, int name, GlslPlace place, int kind);
 int symbol_bind(Parser *parser, int symbol); /* its name means it from here on; returns it */
 int symbol_of(const Parser *parser, int name);
 bool name_is_free(Parser *parser, const Token *token);
-void intern_words(Parser *parser);
+void open_words(Parser *parser);
 void declare_built_ins(Parser *parser);
 
 /* Parsing. */

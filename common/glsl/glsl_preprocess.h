@@ -62,6 +62,7 @@ typedef struct Names {
 } Names;
 
 void names_open(Names *names);
+void names_copy(Names *names, const Names *from);
 void names_close(Names *names);
 int names_find(Names *names, const char *text, int length);
 

@@ -263,13 +263,12 @@ GlslTree *glsl_parse(const char *text, GlslStage stage, const GlslLimits *limits
     GlslMessage message;
     tree->stage = stage;
     tree->limits = limits ? *limits : GLSL_LIMITS;
-    names_open(&parser.names);
     node_new(&parser, GLSL_NOTHING, GLSL_ERROR, (GlslPlace){0});
     values_new(tree, 1);
     /* The words first: their names are numbers of types. Symbol 0 is none. */
     *(GlslSymbol *)memory_add(&tree->symbols, &tree->symbol_count, &tree->symbol_room,
                               sizeof(GlslSymbol)) = (GlslSymbol){.name = ""};
-    intern_words(&parser);
+    open_words(&parser);
     add_types(&parser);
     parser.broken = !preprocess(tree, &parser.names, text, &parser.tokens, &message);
     declare_built_ins(&parser);
