@@ -159,7 +159,7 @@ void hard_world(HardWorld *world, const Mesh *mesh)
                            .object_count = 1};
 }
 
-void hard_check_ways(const char *name, const Scene *scene, double reach, int min_pixels)
+static void check_ways(const char *name, const Scene *scene, double reach, int min_pixels)
 {
     static const Interpolation ways[] = {INTERPOLATION_PHONG, INTERPOLATION_GOURAUD};
     static const double COLORS_ONLY = 1.5;
@@ -178,7 +178,7 @@ void hard_check_reflections(const char *name, HardWorld *world, double reach, in
 {
     for (int reflection = 0; reflection < 2; reflection++) {
         world->scene.reflection = (Reflection)reflection;
-        hard_check_ways(name, &world->scene, reach, min_pixels);
+        check_ways(name, &world->scene, reach, min_pixels);
     }
 }
 

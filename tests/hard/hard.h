@@ -88,12 +88,10 @@ typedef struct HardWorld {
 } HardWorld;
 void hard_world(HardWorld *world, const Mesh *mesh);
 
-/* hard_check in both precisions, lit at the fragments and at the vertices: within 1 step in highp,
- * within oracle_mediump_max for mediump fragments. At the vertices, which are always highp, mediump
+/* hard_check with each reflection, of which the world's scene keeps the last one, in both
+ * precisions, lit at the fragments and at the vertices: within 1 step in highp, within
+ * oracle_mediump_max for mediump fragments. At the vertices, which are always highp, mediump
  * affects only colours: 1.5 steps. */
-void hard_check_ways(const char *name, const Scene *scene, double reach, int min_pixels);
-
-/* hard_check_ways with each reflection; the world's scene keeps the last one. */
 void hard_check_reflections(const char *name, HardWorld *world, double reach, int min_pixels);
 
 /* Draws without comparing; every value must be finite. */

@@ -68,7 +68,8 @@ static void check_way(const char *name, Interpolation interpolation, HardPrecisi
 }
 
 /* By volumes: without the highlight, whose error in mediump depends on angles, in both precisions
- * at the vertices and the fragments; with it in highp. See hard_check_ways for the bounds. */
+ * at the vertices and the fragments; with it in highp. See hard_check_reflections for the bounds.
+ */
 static void check(const char *name)
 {
     leave_out_edges(&made.scene, unsure);

@@ -89,9 +89,6 @@ typedef struct ProvedDraw {
     char text[64]; /* as proof_text */
 } ProvedDraw;
 
-/* From the bounds of at most so many pieces more than there are triangles. */
-ProvedDraw prove_draw(const Proof *proof, int draw, int most);
-
 /* Of each object of a scene. */
 typedef struct Proved {
     ProvedDraw draws[16];

@@ -124,7 +124,8 @@ static void add_all(Pieces *pieces, int draw, int most)
     }
 }
 
-ProvedDraw prove_draw(const Proof *proof, int draw, int most)
+/* From the bounds of at most so many pieces more than there are triangles. */
+static ProvedDraw prove_draw(const Proof *proof, int draw, int most)
 {
     /* What is left to gain by more pieces is a twentieth, or not to be seen. */
     static const double NEAR = 1.05, SEEN = 1e-4;
