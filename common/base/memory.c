@@ -25,16 +25,13 @@ void *memory_new(size_t count, size_t size)
     return block;
 }
 
-void *memory_add(void *list, int *count, int *room, size_t size)
+void memory_more(void *list, int *room, size_t size)
 {
-    char *items;
-    memcpy(&items, list, sizeof items); /* a pointer of any type */
-    if (*count == *room) {
-        *room = *room ? 2 * *room : 64;
-        items = memory_grow(items, (size_t)*room, size);
-        memcpy(list, &items, sizeof items);
-    }
-    return items + size * (size_t)(*count)++;
+    void *items;
+    memcpy(&items, list, sizeof items);
+    *room = *room ? 2 * *room : 64;
+    items = memory_grow(items, (size_t)*room, size);
+    memcpy(list, &items, sizeof items);
 }
 
 void *memory_copy(const void *bytes, size_t size)

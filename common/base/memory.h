@@ -13,6 +13,7 @@
 #define MEMORY_H
 
 #include <stddef.h>
+#include <string.h>
 
 enum { MEMORY_EXIT = 1 };
 
@@ -26,8 +27,18 @@ void *memory_new(size_t count, size_t size) __attribute__((malloc, returns_nonnu
 void *memory_grow(void *block, size_t count, size_t size)
     __attribute__((warn_unused_result, returns_nonnull));
 
+/* Twice the room for items in the list that `list` points to. */
+void memory_more(void *list, int *room, size_t size);
+
 /* One more item, not set, of the list that `list` points to, which has room for so many. */
-void *memory_add(void *list, int *count, int *room, size_t size) __attribute__((returns_nonnull));
+static inline void *memory_add(void *list, int *count, int *room, size_t size)
+{
+    char *items;
+    if (*count == *room)
+        memory_more(list, room, size);
+    memcpy(&items, list, sizeof items); /* a pointer of any type */
+    return items + size * (size_t)(*count)++;
+}
 
 /* A copy, and a zero byte after it. */
 void *memory_copy(const void *bytes, size_t size) __attribute__((malloc, returns_nonnull));

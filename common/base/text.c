@@ -26,6 +26,29 @@ int text_numbers(const char *text, const char *form, int *numbers)
     return (int)(at - text);
 }
 
+/* Digits below 2^53 and the power of ten are exact, so that only their quotient is rounded, as it
+ * is there (Clinger, How to read floating point numbers accurately, PLDI 1990). */
+double text_decimal(const char *text, char **end)
+{
+    const char *at = text + strspn(text, " \t\r\n"), *point = NULL;
+    const bool negative = *at == '-';
+    double power = 1;
+    uint64_t digits = 0;
+    int count = 0;
+    for (at += negative; count < 16 && ((*at >= '0' && *at <= '9') || (*at == '.' && !point)); at++)
+        if (*at == '.') {
+            point = at;
+        } else {
+            digits = 10 * digits + (uint64_t)(*at - '0');
+            power *= point ? 10 : 1;
+            count++;
+        }
+    if (count == 0 || count == 16 || text_is_word(*at))
+        return strtod(text, end);
+    *end = (char *)at;
+    return (negative ? -(double)digits : (double)digits) / power;
+}
+
 int text_character(const char *text)
 {
     static const struct {

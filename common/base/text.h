@@ -48,6 +48,9 @@ void text_strip_comments(char *text);
  * and how many characters that is. 0: it does not begin so. */
 int text_numbers(const char *text, const char *form, int *numbers);
 
+/* What strtod reads, sooner where it is a few digits. */
+double text_decimal(const char *text, char **end);
+
 /* Writes a paragraph in lines of as many words as fit, at least one. Breaks at blanks, which are
  * not counted, after bars, and at line feeds. It begins in `column`, other lines after `indent`
  * blanks; `width` counts both. Ends without a line feed; returns the column it ends in. */

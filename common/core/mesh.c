@@ -4,6 +4,7 @@
  * names with their sources. One pass adds up, a second divides: linear in triangles and vertices.
  */
 #include "core/mesh.h"
+#include "core/matrix_vectors.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -123,7 +124,9 @@ bool mesh_compute_normals(Mesh *mesh, MeshWeight weight, bool missing, Message *
     }
     for (size_t triangle = 0; triangle < mesh->index_count / 3; triangle++) {
         const uint32_t *corner = &mesh->indices[3 * triangle];
-        const Vec3 area = across(mesh, triangle);
+        const Vec3 ab = edge(mesh, corner[0], corner[1]), bc = edge(mesh, corner[1], corner[2]),
+                   ac = edge(mesh, corner[0], corner[2]), area = vec3_cross(ab, ac);
+        const Vec3 sides[3][2] = {{ab, ac}, {bc, vec3_scale(ab, -1)}, {ac, bc}};
         const double sine = vec3_length(area);
         Vec3 normal;
         if (!vec3_normalize(area, &normal))
@@ -133,8 +136,7 @@ bool mesh_compute_normals(Mesh *mesh, MeshWeight weight, bool missing, Message *
             Sum *sum = &sums[vertex];
             if (sum->kept)
                 continue;
-            const double share = corner_weight(sine, edge(mesh, vertex, corner[(i + 1) % 3]),
-                                               edge(mesh, vertex, corner[(i + 2) % 3]), weight);
+            const double share = corner_weight(sine, sides[i][0], sides[i][1], weight);
             if (sum->weights == 0)
                 vec3_to_float(normal, mesh->vertices[vertex].normal);
             sum->normals = vec3_add(sum->normals, vec3_scale(normal, share));

@@ -1,5 +1,6 @@
 /* Positions and normals interleaved in one buffer, indices of 16 bits where they suffice. */
 #include "core/mesh_buffer.h"
+#include "core/matrix_vectors.h"
 
 #include <limits.h>
 #include <stdlib.h>

@@ -89,13 +89,21 @@ uint64_t mesh_hash(const MeshVertex *vertex, bool normals)
  * algorithm L). */
 bool mesh_weld(const Mesh *mesh, bool normals, uint32_t *first)
 {
+    enum { AHEAD = 8 };
     size_t mask = 15;
     while (mask < 2 * mesh->vertex_count)
         mask = 2 * mask + 1;
     uint32_t *slots = calloc(mask + 1, sizeof *slots); /* a number plus 1; 0: free */
+    for (size_t i = 0; i < mesh->vertex_count; i++)
+        first[i] = (uint32_t)(mesh_hash(&mesh->vertices[i], normals) & mask);
     for (size_t i = 0; slots && i < mesh->vertex_count; i++) {
         const MeshVertex *vertex = &mesh->vertices[i];
-        size_t slot = mesh_hash(vertex, normals) & mask;
+        size_t slot = first[i];
+        if (i + 2 * AHEAD < mesh->vertex_count) { /* what is looked up soon is on its way */
+            const uint32_t near = slots[first[i + AHEAD]];
+            __builtin_prefetch(&slots[first[i + 2 * AHEAD]]);
+            __builtin_prefetch(&mesh->vertices[near ? near - 1 : 0]);
+        }
         while (slots[slot] && !are_equal(vertex, &mesh->vertices[slots[slot] - 1], normals))
             slot = (slot + 1) & mask;
         if (!slots[slot])

@@ -51,12 +51,13 @@ static bool make_plain(const ViewMoment *moment, Scene *scene, Message *message)
     scene->signed_dots |= request->signed_dots;
     scene->linear |= request->linear;
     scene->show_clipped |= request->show_clipped;
-    /* Of a view in the picture that the program makes without --size. */
+    /* Of a view in the picture that the program makes without --size; a saved scene has its own. */
     const Usage usage = options_usage(moment->renderer->example);
     int width, height, columns, rows;
     options_size(&usage, &width, &height);
     view_grid(moment->renderer, &columns, &rows);
-    scene->camera.aspect = (double)width * rows / ((double)height * columns);
+    if (!(scene->camera.aspect > 0))
+        scene->camera.aspect = (double)width * rows / ((double)height * columns);
     if (!scene_check(scene, message))
         return false;
     if (orbit_moves(request->orbit))

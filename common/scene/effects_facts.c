@@ -6,6 +6,7 @@
  */
 #include "scene/effects.h"
 
+#include "core/matrix_vectors.h"
 #include "scene/shadow_pairs.h"
 
 #include <assert.h>

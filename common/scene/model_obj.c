@@ -4,6 +4,7 @@
  */
 #include "base/input.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "core/mesh_make.h"
 #include "scene/model_module.h"
 #include "scene/polygon.h"
@@ -66,7 +67,7 @@ static int take_numbers(const char **at, int most, float *numbers)
 {
     int count = 0;
     for (char *end; count < most && !at_end(at); count++, *at = end) {
-        numbers[count] = (float)strtod(*at, &end);
+        numbers[count] = (float)text_decimal(*at, &end);
         if (end == *at)
             break;
     }

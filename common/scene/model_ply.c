@@ -5,11 +5,13 @@
  * from its lists' lengths. (Greg Turk, The PLY polygon file format, 1994.)
  */
 #include "base/memory.h"
+#include "base/text.h"
 #include "core/mesh_make.h"
 #include "scene/model_module.h"
 #include "scene/polygon.h"
 #include "scene/texture_mean.h"
 
+#include <endian.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -134,18 +136,19 @@ static bool read_header(Ply *ply)
 static bool take(Ply *ply, Type type, double *number)
 {
     const int bytes = type.bytes, rest = 64 - 8 * bytes;
+    const ptrdiff_t left = ply->end - ply->next;
     uint64_t bits = 0;
     if (ply->words) {
         char *end;
-        *number = strtod(ply->next, &end);
+        *number = text_decimal(ply->next, &end);
         const bool found = end != ply->next;
         ply->next = end;
         return found;
     }
-    if (ply->end - ply->next < bytes)
+    if (left < bytes)
         return false;
-    for (int i = 0; i < bytes; i++)
-        bits = bits << 8 | (uint8_t)ply->next[ply->big_endian ? i : bytes - 1 - i];
+    memcpy(&bits, ply->next, left < 8 ? (size_t)left : sizeof bits);
+    bits = ply->big_endian ? be64toh(bits) >> rest : le64toh(bits) << rest >> rest;
     ply->next += bytes;
     if (type.real && bytes == 4) {
         const uint32_t low = (uint32_t)bits;

@@ -12,6 +12,7 @@
 
 #include "base/memory.h"
 #include "base/random.h"
+#include "core/matrix_vectors.h"
 #include "core/mesh_make.h"
 
 #include <math.h>
@@ -248,28 +249,46 @@ static uint64_t edge(uint64_t a, uint64_t b)
     return a < b ? number : -number;
 }
 
+static void unite(uint32_t *parents, uint32_t i, uint32_t j)
+{
+    i = root_of(parents, i);
+    j = root_of(parents, j);
+    parents[i < j ? j : i] = i < j ? i : j;
+}
+
+/* The connected parts of the vertices, those at equal places connected. */
+static bool find_parts(const Mesh *mesh, uint32_t *parents, uint32_t *first)
+{
+    bool one = true;
+    for (uint32_t i = 0; i < mesh->vertex_count; i++)
+        parents[i] = i;
+    for (size_t i = 0; i < mesh->index_count; i += 3) {
+        unite(parents, mesh->indices[i], mesh->indices[i + 1]);
+        unite(parents, mesh->indices[i], mesh->indices[i + 2]);
+    }
+    for (uint32_t i = 0; i < mesh->vertex_count; i++)
+        one &= root_of(parents, i) == 0;
+    if (!one && !mesh_weld(mesh, false, first))
+        return false;
+    for (uint32_t i = 0; i < mesh->vertex_count && !one; i++)
+        unite(parents, i, first[i]);
+    return true;
+}
+
 /* Six times the volumes of the parts, at their roots, about a point of the mesh. */
-static bool have_volume(const Mesh *mesh, const uint32_t *ids, uint32_t *parents, double *volumes)
+static bool have_volume(const Mesh *mesh, uint32_t *parents, double *volumes)
 {
     const Vec3 origin = vec3_from_float(mesh->vertices[0].position);
-    for (size_t i = 0; i < mesh->index_count; i++)
-        parents[ids[mesh->indices[i]]] = ids[mesh->indices[i]];
-    for (size_t i = 0; i < mesh->index_count; i += 3)
-        for (size_t k = 1; k < 3; k++)
-            parents[root_of(parents, ids[mesh->indices[i]])] =
-                root_of(parents, ids[mesh->indices[i + k]]);
     for (size_t i = 0; i < mesh->index_count; i += 3) {
         Vec3 v[3];
         for (size_t k = 0; k < 3; k++)
             v[k] = vec3_subtract(vec3_from_float(mesh->vertices[mesh->indices[i + k]].position),
                                  origin);
-        volumes[root_of(parents, ids[mesh->indices[i]])] += vec3_dot(v[0], vec3_cross(v[1], v[2]));
+        volumes[root_of(parents, mesh->indices[i])] += vec3_dot(v[0], vec3_cross(v[1], v[2]));
     }
-    for (size_t i = 0; i < mesh->index_count; i++) {
-        const uint32_t id = ids[mesh->indices[i]];
-        if (parents[id] == id && !(volumes[id] > 0))
+    for (size_t i = 0; i < mesh->index_count; i++)
+        if (!(volumes[root_of(parents, mesh->indices[i])] > 0))
             return false;
-    }
     return true;
 }
 
@@ -286,11 +305,12 @@ bool scene_file_is_closed(const Mesh *mesh)
     free(places);
     if (!places || sum || mesh->index_count == 0)
         return false;
-    uint32_t *ids = calloc(2 * mesh->vertex_count + 1, sizeof *ids);
+    uint32_t *parents = calloc(2 * mesh->vertex_count + 1, sizeof *parents);
     double *volumes = calloc(mesh->vertex_count, sizeof *volumes);
-    const bool closed = ids && volumes && mesh_weld(mesh, false, ids) &&
-                        have_volume(mesh, ids, ids + mesh->vertex_count, volumes);
+    const bool closed = parents && volumes &&
+                        find_parts(mesh, parents, parents + mesh->vertex_count) &&
+                        have_volume(mesh, parents, volumes);
     free(volumes);
-    free(ids);
+    free(parents);
     return closed;
 }

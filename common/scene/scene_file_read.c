@@ -6,6 +6,7 @@
  */
 #include "base/output.h"
 #include "base/process.h"
+#include "core/matrix_vectors.h"
 #include "core/mesh_make.h"
 #include "scene/model_module.h"
 

@@ -2,7 +2,10 @@
  * Texts: lines, comments, and names that were misspelled.
  */
 #include "base/text.h"
+#include "base/random.h"
 #include "support/testing.h"
+
+#include <math.h>
 
 TEST(a_quoted_source_line_is_known)
 {
@@ -12,6 +15,52 @@ TEST(a_quoted_source_line_is_known)
     assert_false(text_is_quote("3 | no blanks before it"));
     assert_false(text_is_quote("   | no number"));
     assert_false(text_is_quote(""));
+}
+
+static void expect_decimal(const char *text)
+{
+    char *end, *expected_end;
+    const double number = text_decimal(text, &end), expected = strtod(text, &expected_end);
+    if (memcmp(&number, &expected, sizeof number) != 0 || end != expected_end)
+        fail_msg("\"%s\": %.17g, %td bytes; %.17g, %td", text, number, end - text, expected,
+                 expected_end - text);
+}
+
+TEST(decimals_are_what_strtod_reads)
+{
+    static const char *const cases[] = {"",
+                                        "-",
+                                        "+1.5",
+                                        ".",
+                                        "-.",
+                                        ".5",
+                                        "5.",
+                                        "-0",
+                                        "-.0 1",
+                                        "1.2.3",
+                                        " \t\n7/",
+                                        "1e5",
+                                        "1.5e",
+                                        "1.25f",
+                                        "0x1p3",
+                                        "\v2",
+                                        "nan",
+                                        "-inf",
+                                        "--1",
+                                        "1_000",
+                                        "999999999999999",
+                                        "9999999999999999",
+                                        "0.1234567890123456789",
+                                        "000000000000000000001"};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+        expect_decimal(cases[i]);
+    Random random = {testing_seed(1)};
+    for (int i = 0; i < 100000; i++) {
+        char text[64];
+        snprintf(text, sizeof text, "%.*f", random_below(&random, 17),
+                 random_between(&random, -1, 1) * pow(10, random_below(&random, 16)));
+        expect_decimal(text);
+    }
 }
 
 TEST(comments_become_blanks)

@@ -199,6 +199,21 @@ class Scene(base.Case):
             for name in ("a.gltf", "b.gltf"):
                 self.assertEqual(self.drawn(name, "-s", "200x200", program="Scene").pixels, expected, (program, name))
 
+    def test_every_program_saves_what_it_draws_but_for_axes_marks_and_labels(self):
+        """Of several views the first. Axes and the marks of lights have components of 0 and 255 alone; a label ends a view."""
+        side, label, marks = 150, 130, 600  # 150x150: four marks of 10x10, and three axes
+        views = {"ColoredLights": (1, 5), "LightTypes": (3, 2), "PhongBlinn": (3, 1), "TermsApart": (5, 2)}
+        for program in base.SCENES:
+            columns, rows = views.get(program, (1, 1))
+            size = f"{columns * side}x{rows * side}"
+            self.good("-t", "1.5", "-s", size, "--save-scene", "a.gltf", program=program)
+            own = self.drawn("-t", "1.5", "-s", size, program=program)
+            back = self.drawn("a.gltf", "-s", f"{side}x{side}", program="Scene")
+            places = ((x, y) for y in range(side if program not in views else label) for x in range(side))
+            found = [own.at(*place) for place in places if own.at(*place) != back.at(*place)]
+            self.assertLessEqual(len(found), marks, program)
+            self.assertLessEqual({value for pixel in found for value in pixel}, {0, 255}, program)
+
     def test_cameras_by_number_and_name(self):
         file = tetrahedron(nodes=[{"mesh": 0}, {"camera": 0, "name": "left", "translation": [-1, 0, 9]},
                                   {"camera": 0, "name": "far", "translation": [0, 0, 30]}],
