@@ -61,53 +61,6 @@ TEST(the_head_fits_the_unit_sphere_and_its_normals_point_outwards)
     }
 }
 
-/* A triangle's corners, beginning with the least, so that equal triangles are equal in bytes. */
-typedef struct Corners {
-    MeshVertex vertex[3];
-} Corners;
-
-static int compare_corners(const void *a, const void *b)
-{
-    return memcmp(a, b, sizeof(Corners));
-}
-
-static Corners *sorted_triangles(const Mesh *mesh, bool mirrored)
-{
-    Corners *list = calloc(mesh->index_count / 3, sizeof *list);
-    assert_non_null(list);
-    for (size_t t = 0; t < mesh->index_count / 3; t++) {
-        Corners found = {0};
-        for (size_t k = 0; k < 3; k++) {
-            const size_t from = mirrored ? 2 - k : k;
-            found.vertex[k] = mesh->vertices[mesh->indices[3 * t + from]];
-            if (mirrored) { /* 0 - x: no negative zero */
-                found.vertex[k].position[0] = 0 - found.vertex[k].position[0];
-                found.vertex[k].normal[0] = 0 - found.vertex[k].normal[0];
-            }
-        }
-        for (size_t k = 0; k < 3; k++) {
-            const Corners turned = {
-                {found.vertex[k], found.vertex[(k + 1) % 3], found.vertex[(k + 2) % 3]}};
-            if (k == 0 || compare_corners(&turned, &list[t]) < 0)
-                list[t] = turned;
-        }
-    }
-    qsort(list, mesh->index_count / 3, sizeof *list, compare_corners);
-    return list;
-}
-
-TEST(the_mirrored_head_is_the_head_bit_for_bit)
-{
-    for (size_t s = 0; s < STYLE_COUNT; s++) {
-        CLOSED(mesh_close) Mesh mesh;
-        SUCCEEDS(mesh_head(&mesh, STYLES[s].style, message));
-        Corners *here = sorted_triangles(&mesh, false), *there = sorted_triangles(&mesh, true);
-        assert_memory_equal(here, there, mesh.index_count / 3 * sizeof *here);
-        free(here);
-        free(there);
-    }
-}
-
 /* Six times the volume of a tetrahedron, with the sign of its orientation. */
 static double volume(Vec3 a, Vec3 b, Vec3 c, Vec3 d)
 {
