@@ -374,7 +374,9 @@ class Abuse(Class):
             "struct file *fopen(const char *, const char *); "
             "int fputs(const char *, struct file *); int fclose(struct file *);\n"
         )
-        constructor = "__attribute__((constructor)) static void early(void) { for (;;) fork(); }\n"
+        # An endless one takes the seconds of processor time that a call has, and the class is patient twice.
+        early = "for (;;) fork();" if base.LONG else "for (int i = 0; i < 10000; i++) fork(); abort();"
+        constructor = f"__attribute__((constructor)) static void early(void) {{ {early} }}\n"
         bombs = (
             ("early_bomb", declared + constructor, ""),
             ("bomb", declared, " for (;;) fork(); "),
