@@ -389,13 +389,13 @@ class Holes(Labs):
     def test_shadows_that_are_filtered(self):
         """Named in the student's words; what is changed as the fields say is right."""
         cases = {
+            "wb3": "arguments of step swapped",  # which takes least: the short form has it alone
             "wa1": "p.z + 0.004 for (p.z - 0.004)",
             "wa2": "8.0 for 9.0",
             "wc1": "no bias: place.z",
             "wa4": "not divided by the map's size: ",
             "wa6": "sun() on the ambient light, too",
             "wa7": "not asked: what is beside the map",
-            "wb3": "arguments of step swapped",
             "wb4": "not mapped to 0 to 1: vShadow.z / vShadow.w",
             "wc4": "one channel of the depth: texture2D(u_ShadowMap, place).r",
             "wd1": "amount for (1.0 - amount)",
