@@ -121,7 +121,7 @@ const Example LightTypes = {
     .height = 500,
     .tries = {"--constant 0.5 --linear 0 --quadratic 0.1", "--cutoff 60 --exponent 128",
               "--terms specular"},
-    .looks = {"by the square of the distance: the floor dims more than the nearer sphere",
+    .looks = {"by the square of the distance: brighter below, the floor by a larger factor",
               "the exponent narrows the last spot, not the cutoff",
               "highlights alone: in one place, weaker where attenuated"},
     .init = init,
