@@ -163,15 +163,15 @@ const Book = (() => {
         }
 
         show() {
-            const values = this.name === this.base.name ? book.engine.json("values") : {}, orbit = this.orbit.map(x => +x.toFixed(2));
-            const turned = this.orbit[2] === 1 && !this.orbit[3] ? orbit.slice(0, 2) : orbit;
+            const values = this.name === this.base.name ? book.engine.json("values") : {}, {orbit} = this;
+            const turned = orbit[2] === 1 && !orbit[3] ? orbit.slice(0, 2) : orbit;
             for (const [name, control] of this.controls)
                 if (!control.inputs.includes(document.activeElement))
                     control.show(this.values.get(name) === true || (values[name] === undefined ? "" : values[name]));
             if (this.slider && document.activeElement !== this.slider)
                 this.slider.value = ((this.seconds % TURN) + TURN) % TURN;
-            const moved = this.orbit.some((x, i) => x !== [0, 0, 1, 0][i]);
-            const more = (this.seconds ? " --time " + +this.seconds.toFixed(2) : "") + (moved ? " --orbit " + turned.join(",") : "");
+            const moved = orbit.some((x, i) => x !== [0, 0, 1, 0][i]);
+            const more = (this.seconds ? " --time " + this.seconds : "") + (moved ? " --orbit " + turned.join(",") : "");
             const words = [...this.values].map(([name, value]) => " --" + name + (value === true ? "" : " " + value)).join("");
             this.where.querySelector(".command").textContent = "examples/run " + this.name + words + more;
             if (this.wanted.includes("plot"))
@@ -241,8 +241,9 @@ const Book = (() => {
             book.scheduled = false;
             const {playing} = book;
             if (playing && playing.inSight) {
-                playing.seconds += Math.min(0.25, Math.max(0, now - book.last) / 1000);
-                book.last = now;
+                const passed = Math.round(Math.max(0, now - book.last));
+                playing.seconds = Math.round(1000 * playing.seconds + Math.min(250, passed)) / 1000;
+                book.last += passed;
                 schedule();
             }
             const next = book.figures.find(figure => figure.inSight && figure.drawn !== figure.key());

@@ -228,6 +228,15 @@ class Text(unittest.TestCase):
             with self.subTest(chapter.path.name, words=words):
                 self.assertTrue(400 <= words <= 900)
 
+    def test_a_chapter_has_a_hard_case(self):
+        """Under a heading of its own, but in the chapter of nothing else."""
+        without = [chapter.title for chapter in CHAPTERS if "A hard case" not in dict(chapter.sections())]
+        self.assertEqual(without, ["When formulas fail"])
+
+    def test_each_lab_is_in_one_chapter(self):
+        labs = [lab for chapter in CHAPTERS for lab in sorted(set(re.findall(r"\]\(\.\./labs/(lab\w+)/", chapter.text)))]
+        self.assertEqual(sorted(labs), sorted(path.parent.name for path in pathlib.Path(SOURCE, "examples/labs").glob("lab*/TASK.md")))
+
     def test_links_lead_somewhere(self):
         for chapter in CHAPTERS:
             for target in re.findall(r"\]\((?!program|change|precision|formula)([^)#]+)[^)]*\)", chapter.text):

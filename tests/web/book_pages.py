@@ -107,6 +107,18 @@ class Book(Case):
         self.page.run(f"Book.book.figures[{number}].compare()")
         self.page.wait(f"/at most 49\\.5\\d steps/.test(document.querySelector({json.dumps(last + ' .told')}).textContent)")
 
+    def test_a_figure_that_played_is_that_of_its_command(self):
+        """To the last digit of time and camera."""
+        self.open_all("chapter16")
+        play = "#" + self.page.run("Book.book.figures[0].where.id") + " .row button"
+        self.page.run("Book.book.figures[0].orbit = [0.123, 0, 1, 0]")
+        self.page.click(play)
+        self.page.wait("Book.book.figures[0].seconds > 0.5")
+        self.page.click(play)
+        words = self.assert_figure(0)
+        self.assertIn("--orbit 0.123,0", " ".join(words))
+        self.assertGreater(float(words[words.index("--time") + 1]), 0.5)
+
     def test_plain_formulas_fail_as_natively(self):
         """At each slider's start, where llvmpipe fails, too; then the exact picture comes, and the stable one is near it."""
         self.open_all("chapter20")
