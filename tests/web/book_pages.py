@@ -214,6 +214,18 @@ class Book(Case):
         self.page.key("Home")
         self.assertEqual(self.page.run(shown), "H1")
 
+    def test_slides_are_large(self):
+        """Diagrams are as high as the pictures that are drawn; no formula is too wide."""
+        self.page.resize(1280, 800)
+        for name in CHAPTERS:
+            self.page.open(address(name).replace(".html", ".html?slides"))
+            found = self.page.run("""[...document.querySelectorAll("article > .Vectors, article > p:has(> math[display=block])")].flatMap(part => {
+                part.classList.add("shown");
+                return [...part.querySelectorAll(":scope > img, :scope > math")].map(({tagName, offsetHeight, scrollWidth, clientWidth}) =>
+                    tagName === "IMG" ? offsetHeight / innerHeight > 0.67 : scrollWidth <= clientWidth);
+            })""")
+            self.assertTrue(all(found), (name, found))
+
     def test_paper(self):
         for name in ("chapter07", "chapter20"):
             self.open_all(name)
