@@ -392,6 +392,7 @@ static bool explain_view(Renderer *renderer, const DrawRequest *request, int num
     if (done) {
         scene_explain_choice(renderer, request, &view, number, stdout);
         explain_objects(renderer, &plan, request->verbose, number, explained);
+        explain_reach(&plan);
     }
     if (done && number == 0 && view.scene.object_count > 0) {
         fputs(explained->count > 1 ? "\n" : "", stdout);
@@ -446,15 +447,17 @@ static void print_light(const Light *light)
     printf("%s\n", light->off ? "; off" : "");
 }
 
-/* As --light-at and --light-color take them. */
+/* As --light-at and --light-color take them; of many the first, which --terms takes. */
 static void print_lights(Renderer *renderer, const DrawRequest *request)
 {
     Lights all = {.shown = {0}};
+    int more = 0;
     const int count = scene_view_count(renderer);
     for (int number = 0; number < count; number++) {
         SceneView view;
         if (scene_view_open(&view, renderer, request, request->seconds, number, NULL))
             add_lights(&view.asked, number, &all);
+        more = view.asked.light_count > more ? view.asked.light_count : more;
         scene_view_close(&view);
     }
     printf("# lights, by their numbers in --light-at, --light-color and --terms\n");
@@ -466,6 +469,9 @@ static void print_lights(Renderer *renderer, const DrawRequest *request)
             printf("view %d, ", all.views[i]);
         print_light(&all.lights[i]);
     }
+    if (more > EFFECTS_MAX_LIGHTS)
+        printf("%d to %d: more, all of them number %d of --terms\n", EFFECTS_MAX_LIGHTS, more - 1,
+               EFFECTS_MAX_LIGHTS - 1);
 }
 
 bool explain_programs(Renderer *renderer, const DrawRequest *request, Message *message)

@@ -68,11 +68,13 @@ static void print_groups(const Group *groups, int count, int objects)
     printf("\n");
 }
 
-/* Of how many objects a light was left out because it does not reach them. */
+/* Of how many objects a light was left out because it does not reach them; of lights that all
+ * objects may have. */
 static void print_reach(const LightingPlan *plan)
 {
     bool any = false;
-    for (int light = 0; light < plan->light_count; light++) {
+    const bool many = plan->frame.scene->light_count > EFFECTS_MAX_LIGHTS; /* see explain_reach */
+    for (int light = 0; light < plan->light_count && !many; light++) {
         static const char *const why[] = {"are beyond its range", "are missed by its cone",
                                           "turn away from it", "find it too faint"};
         int counts[4] = {0};
@@ -96,6 +98,35 @@ static void print_reach(const LightingPlan *plan)
         }
     }
     fputs(any ? "\n" : "", stdout);
+}
+
+void explain_reach(const LightingPlan *plan)
+{
+    const int lights = plan->frame.scene->light_count;
+    long long counts[REACH_COUNT] = {0};
+    double most = 0;
+    uint8_t *why = memory_new((size_t)lights + 1, sizeof *why);
+    for (int i = 0; i < plan->object_count && lighting_plan_reach(plan, i, why); i++) {
+        const ObjectFacts *facts = &plan->objects[i].facts;
+        const int faint = __builtin_popcount(facts->faint);
+        double steps = memchr(why, REACH_MORE, (size_t)lights) ? 0 : (double)facts->spent;
+        for (int light = 0; light < lights; light++)
+            counts[why[light]]++;
+        counts[REACH_YES] -= faint;
+        counts[REACH_FAINT] += faint;
+        for (int k = 0; k < EFFECTS_MAX_LIGHTS; k++)
+            steps += (double)facts->steps[k];
+        most = fmax(most, steps);
+    }
+    free(why);
+    for (int k = 0; k < REACH_COUNT; k++)
+        if (counts[k])
+            printf("of %d lights and %d objects, %lld times: %s\n", lights, plan->object_count,
+                   counts[k], EFFECTS_REACHES[k]);
+    if (counts[REACH_FAINT])
+        printf("those that are too faint add at most %.2f steps to any pixel\n",
+               ceil(100 * most) / 100);
+    fputs(lights > EFFECTS_MAX_LIGHTS ? "\n" : "", stdout);
 }
 
 bool *explain_groups(const LightingPlan *plan)
@@ -133,7 +164,7 @@ PanelObject *explain_list(const LightingPlan *plan, int object, const char *name
     const Effects decided = lighting_plan_effects(plan, object);
     PanelObject *listed =
         memory_add(&objects->all, &objects->count, &objects->room, sizeof *listed);
-    uint64_t lights = 0;
+    uint32_t lights = 0;
     OutputText row, same;
     output_text_open(&row);
     output_text_open(&same);
@@ -142,10 +173,10 @@ PanelObject *explain_list(const LightingPlan *plan, int object, const char *name
             name);
     for (int g = 0; g < decided.group_count; g++)
         for (int i = 0; i < decided.groups[g].count; i++)
-            lights |= 1ull << decided.groups[g].lights[i];
-    for (int i = 0; lights >> i; i++)
-        if (lights >> i & 1)
-            fprintf(row.file, "%s%d", lights & ((1ull << i) - 1) ? ", " : ": lights ", i);
+            lights |= (uint32_t)1 << decided.groups[g].lights[i];
+    for (uint32_t left = lights; left; left &= left - 1)
+        fprintf(row.file, "%s%d", left == lights ? ": lights " : ", ",
+                lighting_plan_facts(plan, object)->numbers[__builtin_ctz(left)]);
     fputs(lights ? "" : ": no light", row.file);
     *listed = (PanelObject){.row = output_text_close(&row),
                             .effects = memory_text(effects),

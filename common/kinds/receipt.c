@@ -131,8 +131,8 @@ static void put_difference(const char *lines, const char *other, FILE *file)
 
 void receipt_write(const LightingPlan *plan, int object, const char *effects, FILE *file)
 {
-    const Effects has = effects_decide(&plan->scenes[plan->in_parts ? object : 0],
-                                       &plan->objects[object].facts, NULL);
+    const Effects has =
+        effects_decide(lighting_plan_facts(plan, object), &plan->objects[object].facts, NULL);
     bool said[EFFECT_COUNT] = {false};
     char *lines = program_lines(plan, object, &has);
     for (; *effects; effects += strcspn(effects, "\n") + 1) {

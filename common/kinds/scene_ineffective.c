@@ -127,8 +127,9 @@ bool scene_check_names(const Example *example, const DrawRequest *request, Messa
     example->finish();
     if (!made) /* drawing says why */
         return true;
-    return changed >> found.lights ? refuse_lights(request, found.lights, message)
-                                   : refuse_terms(named, found, message);
+    return found.lights < LIGHTS_MAX && changed >> found.lights
+               ? refuse_lights(request, found.lights, message)
+               : refuse_terms(named, found, message);
 }
 
 /* Options */
@@ -292,8 +293,7 @@ static bool scene_has(Lighting *lighting, const Scene *made, const Options *opti
     scene_tint_lights(&kept, &options->tints);
     scene_keep_terms(&kept, options->terms);
     kept.scene.signed_dots = options->signed_dots;
-    for (int i = 0; i < made->light_count; i++)
-        kept.lights[i].shadows = shadows;
+    scene_cast_shadows(&kept, shadows);
     bool has = !scene_check(&kept.scene, NULL) || !lighting_decide(&plan, lighting, &frame, NULL);
     for (int i = 0; i < made->object_count && !has; i++) {
         const Effects effects = lighting_plan_effects(&plan, i);

@@ -80,8 +80,8 @@ bool scene_view_make(const ViewMoment *moment, SceneCopy *kept, Scene *scene, Me
     scene_place_lights(kept, &request->places);
     scene_tint_lights(kept, &request->tints);
     scene_keep_terms(kept, *terms);
-    for (int i = 0; i < scene->light_count && shadows != own; i++)
-        kept->lights[i].shadows = shadows;
+    if (shadows != own)
+        scene_cast_shadows(kept, shadows);
     *scene = kept->scene;
     return scene_check(scene, message);
 }

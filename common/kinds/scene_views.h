@@ -120,6 +120,8 @@ bool explain_programs(Renderer *renderer, const DrawRequest *request, Message *m
  * the first of theirs. */
 enum { EXPLAIN_FEW = 24 };
 bool *explain_groups(const LightingPlan *plan);
+/* Of how many objects a light was left out, where each has lights of its own. */
+void explain_reach(const LightingPlan *plan);
 PanelObject *explain_list(const LightingPlan *plan, int object, const char *name,
                           const char *effects, PanelObjects *objects); /* one more */
 

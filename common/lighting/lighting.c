@@ -84,8 +84,10 @@ typedef struct EyeLight {
 /* What is the same for all objects of a scene. */
 typedef struct EyeScene {
     const Scene *scene;
-    Vec3 ambient; /* the global, and what is constant of the lights' */
-    EyeLight lights[EFFECTS_MAX_LIGHTS];
+    Vec3 ambient; /* the global, and what is constant of the lights', unless each adds its own */
+    bool add_own;
+    EyeLight *lights;
+    const uint16_t *numbers; /* of the object's lights */
 } EyeScene;
 
 static EyeLight eye_light(const LightingTransforms *transforms, const Camera *camera,
@@ -119,16 +121,17 @@ static EyeLight eye_light(const LightingTransforms *transforms, const Camera *ca
     return made;
 }
 
-/* In the full program each light adds its own ambient light. */
+/* In the full program each light adds its own ambient light, if it has all lights. */
 static void find_eye_scene(EyeScene *made, const LightingTransforms *transforms, const Scene *scene,
                            Mat4 eye_from_world, bool full)
 {
     made->scene = scene;
+    made->add_own = full && scene->light_count <= EFFECTS_MAX_LIGHTS;
     made->ambient = scene->global_ambient;
     for (int i = 0; i < scene->light_count; i++) {
         const Light *light = &scene->lights[i];
         made->lights[i] = eye_light(transforms, &scene->camera, eye_from_world, light);
-        if (!full && !light->off && !light_ambient_varies(light))
+        if (!made->add_own && !light->off && !light_ambient_varies(light))
             made->ambient =
                 vec3_add(made->ambient, vec3_scale(light->ambient, made->lights[i].share));
     }
@@ -154,25 +157,27 @@ static void set_array(GLint location, int size, int count, const float *values)
 }
 
 /* A part of `size` floats of each light of a group; `first`: that of light 0. */
-static void set_part(GLint location, int size, const LightGroup *group, const float *first)
+static void set_part(GLint location, int size, const LightGroup *group, const EyeScene *eye,
+                     const float *first)
 {
     float values[4 * EFFECTS_MAX_LIGHTS];
     if (location < 0)
         return;
     for (int i = 0; i < group->count; i++)
-        memcpy(&values[size * i], (const char *)first + group->lights[i] * sizeof(EyeLight),
+        memcpy(&values[size * i],
+               (const char *)first + eye->numbers[group->lights[i]] * sizeof(EyeLight),
                (size_t)size * sizeof *values);
     set_array(location, size, group->count, values);
 }
 
 /* Each light's channel of its mask. */
-static void set_channels(GLint location, const LightGroup *group, uint32_t shadows)
+static void set_channels(GLint location, const LightGroup *group, const LightingKey *key)
 {
     float channels[4 * EFFECTS_MAX_LIGHTS] = {0};
     if (location < 0)
         return;
     for (int i = 0; i < group->count; i++)
-        channels[4 * i + effects_channel(shadows, group->lights[i]) % SHADOW_CHANNELS] = 1;
+        channels[4 * i + lighting_channel(key, group->lights[i]) % SHADOW_CHANNELS] = 1;
     set_array(location, 4, group->count, channels);
 }
 
@@ -185,14 +190,14 @@ static void set_lights(const LightingVariant *variant, const EyeScene *eye)
     for (int g = 0; g < program->group_count; g++) {
         const LightGroup *group = &variant->key.effects.groups[g];
         const GroupLocations *at = &program->groups[g];
-        set_part(at->position, group->terms.any ? 4 : 3, group, eye->lights[0].position);
-        set_part(at->direction, 3, group, eye->lights[0].direction);
-        set_part(at->half, 3, group, eye->lights[0].half);
-        set_part(at->attenuation, 3, group, eye->lights[0].attenuation);
-        set_part(at->spot, 4, group, eye->lights[0].spot);
-        set_part(at->range, 1, group, &eye->lights[0].range);
-        set_part(at->exponent, 1, group, &eye->lights[0].exponent);
-        set_channels(at->channel, group, variant->key.shadows);
+        set_part(at->position, group->terms.any ? 4 : 3, group, eye, eye->lights[0].position);
+        set_part(at->direction, 3, group, eye, eye->lights[0].direction);
+        set_part(at->half, 3, group, eye, eye->lights[0].half);
+        set_part(at->attenuation, 3, group, eye, eye->lights[0].attenuation);
+        set_part(at->spot, 4, group, eye, eye->lights[0].spot);
+        set_part(at->range, 1, group, eye, &eye->lights[0].range);
+        set_part(at->exponent, 1, group, eye, &eye->lights[0].exponent);
+        set_channels(at->channel, group, &variant->key);
     }
 }
 
@@ -209,12 +214,15 @@ static void set_colors(const GLint locations[3], const EyeScene *eye, const Ligh
         if (locations[k] < 0)
             continue;
         for (int i = 0; i < group->count; i++) {
-            const int number = group->lights[i];
+            const int number = eye->numbers[group->lights[i]];
             const Light *light = &eye->scene->lights[number];
             const Vec3 color = k == 0 ? light->ambient : k == 1 ? light->diffuse : light->specular;
+            const bool in_base = k == 0 && !eye->add_own && !light_ambient_varies(light);
             /* In the full program a light that is off is black, and attenuation has its own
              * uniform. */
-            const double share = light->off ? 0 : group->terms.any ? 1 : eye->lights[number].share;
+            const double share = light->off || in_base ? 0
+                                 : group->terms.any    ? 1
+                                                       : eye->lights[number].share;
             const Vec3 all = vec3_scale(color_product(color, reflected[k]), share);
             vec3_to_float((Vec3){fmin(all.x, max), fmin(all.y, max), fmin(all.z, max)},
                           &values[3 * i]);
@@ -339,10 +347,14 @@ static void draw_object(Pass *pass, int number)
     const Object *object = frame->parts ? &scene->objects[0] : &scene->objects[number];
     const Mat4 eye_from_object = transforms->eye_from_object(&scene->camera, pass->eye_from_world,
                                                              object->world_from_object);
+    const uint16_t *before = pass->eye.numbers;
     bind(pass, planned);
     if (frame->parts)
         find_eye_scene(&pass->eye, transforms, scene, pass->eye_from_world, frame->full);
-    if (frame->parts || pass->lit != variant) {
+    pass->eye.numbers = lighting_plan_facts(pass->plan, number)->numbers;
+    if (frame->parts || pass->lit != variant ||
+        (pass->eye.numbers != before &&
+         memcmp(pass->eye.numbers, before, EFFECTS_MAX_LIGHTS * sizeof *before) != 0)) {
         set_lights(variant, &pass->eye);
         set_shadows(pass->plan, variant->program);
         pass->lit = variant;
@@ -357,6 +369,12 @@ static void draw_object(Pass *pass, int number)
 static void draw_objects(Pass *pass)
 {
     LightingPlan *plan = pass->plan;
+    if (pass->frame->scene->light_count > plan->eye_room) {
+        plan->eye_room = pass->frame->scene->light_count;
+        plan->eye_lights =
+            memory_grow(plan->eye_lights, (size_t)plan->eye_room, sizeof *plan->eye_lights);
+    }
+    pass->eye.lights = plan->eye_lights;
     pass->mediump = lighting_is_mediump(&plan->lighting->programs.loader);
     if (!pass->frame->parts)
         find_eye_scene(&pass->eye, &plan->lighting->transforms, pass->frame->scene,

@@ -94,15 +94,21 @@ typedef struct PlannedLight {
 /* Zeroed: not made. */
 typedef struct LightingPlan {
     Lighting *lighting;
-    int object_count, light_count, object_capacity, light_capacity;
+    int object_count, object_capacity, light_capacity;
+    int light_count; /* of the lights that may cast shadows: all, or the first */
     PlannedObject *objects;
-    SceneFacts *scenes; /* one; in parts one of each object */
+    SceneFacts *scenes; /* one; or of each object */
+    EffectsView view;
+    struct EyeLight *eye_lights; /* of the scene, while a frame is drawn */
+    int eye_room;
     PlannedLight *lights;
     ShadowPairs pairs; /* what casts and receives which light's shadows */
     uint32_t shadows;  /* the lights that have any, a bit each */
     uint32_t maps;     /* the lights whose maps the programs look up, a bit each */
     int masks;         /* how many textures of masks */
     bool full, in_parts;
+    bool each;           /* objects have lights of their own: in parts, or of too many for all */
+    LightingFrame frame; /* the last */
     long long decisions; /* how often an object's effects or program were decided so far */
     int renewal;         /* the Lighting's, when it was made */
     Vec3 eye;
@@ -135,8 +141,13 @@ bool lighting_show(Lighting *lighting, const LightingFrame *frame, Message *mess
 
 /* What a plan says of an object: its effects, and a line for each one and for each one left out,
  * with the reason. */
+const SceneFacts *lighting_plan_facts(const LightingPlan *plan, int object);
 Effects lighting_plan_effects(const LightingPlan *plan, int object);
 void lighting_plan_explain(const LightingPlan *plan, int object, FILE *file);
+
+/* Of each light of a scene that has more than an object may have, an EffectsReach. Its frame must
+ * still be there. False: an object has all lights of the scene. */
+bool lighting_plan_reach(const LightingPlan *plan, int object, uint8_t *why);
 
 /* A line for each light with shadows: how they are drawn, or that nothing can come between; of maps
  * how fine they and their depths are. */

@@ -23,14 +23,20 @@ static bool open_plan(LightingPlan *plan, Lighting *lighting, const LightingFram
                       Message *message)
 {
     const Scene *scene = frame->scene;
+    const bool many = scene->light_count > EFFECTS_MAX_LIGHTS;
+    const int lights = many ? SCENE_MAX_CASTING : scene->light_count;
     if (plan->lighting != lighting || plan->renewal != lighting->renewal ||
         plan->full != frame->full || plan->in_parts != (frame->parts != NULL) ||
-        plan->object_count != scene->object_count || plan->light_count != scene->light_count)
+        plan->each != (frame->parts || many) || plan->object_count != scene->object_count ||
+        plan->light_count != lights)
         plan->object_count = plan->light_count = 0;
     plan->lighting = lighting;
     plan->renewal = lighting->renewal;
     plan->full = frame->full;
     plan->in_parts = frame->parts != NULL;
+    plan->each = frame->parts || many;
+    plan->frame = *frame;
+    plan->view.any_normals = lighting->normal_matrix != NULL; /* wrong ones */
     if (scene->object_count > plan->object_capacity) {
         const size_t room = (size_t)scene->object_count;
         plan->objects = memory_grow(plan->objects, room, sizeof *plan->objects);
@@ -43,13 +49,13 @@ static bool open_plan(LightingPlan *plan, Lighting *lighting, const LightingFram
     for (int i = plan->object_count; i < scene->object_count; i++)
         plan->objects[i] = (PlannedObject){.mesh = NULL};
     plan->object_count = scene->object_count;
-    if (scene->light_count > plan->light_capacity) {
-        plan->lights = memory_grow(plan->lights, (size_t)scene->light_count, sizeof *plan->lights);
-        plan->light_capacity = scene->light_count;
+    if (lights > plan->light_capacity) {
+        plan->lights = memory_grow(plan->lights, (size_t)lights, sizeof *plan->lights);
+        plan->light_capacity = lights;
     }
-    for (int i = plan->light_count; i < scene->light_count; i++)
+    for (int i = plan->light_count; i < lights; i++)
         memset(&plan->lights[i], 0, sizeof plan->lights[i]);
-    plan->light_count = scene->light_count;
+    plan->light_count = lights;
     return shadow_pairs_open(&plan->pairs, scene->object_count, message);
 }
 
@@ -60,6 +66,8 @@ void lighting_plan_close(LightingPlan *plan)
     shadow_pairs_close(&plan->pairs);
     free(plan->objects);
     free(plan->scenes);
+    effects_view_close(&plan->view);
+    free(plan->eye_lights);
     free(plan->lights);
     free(plan->surfaces);
     free(plan->casters);
@@ -99,7 +107,7 @@ static bool place_objects(LightingPlan *plan, const LightingFrame *frame)
 /* An object's key, with all effects or those it needs. */
 static void make_key(const LightingPlan *plan, int number, bool full, LightingKey *key)
 {
-    const SceneFacts *scene = &plan->scenes[plan->in_parts ? number : 0];
+    const SceneFacts *scene = lighting_plan_facts(plan, number);
     const ObjectFacts *object = &plan->objects[number].facts;
     uint32_t shadowed = 0;
     memset(key, 0, sizeof *key);
@@ -108,10 +116,13 @@ static void make_key(const LightingPlan *plan, int number, bool full, LightingKe
         key->effects.normal_matrix = key->effects.normalize_vertex = true;
     for (int g = 0; g < key->effects.group_count; g++) {
         const LightGroup *group = &key->effects.groups[g];
-        for (int i = 0; i < group->count && group->terms.shadow; i++)
-            shadowed |= (uint32_t)1 << group->lights[i];
+        for (int i = 0; i < group->count && group->terms.shadow; i++) {
+            const int light = scene->numbers[group->lights[i]];
+            key->numbers[group->lights[i]] = (uint8_t)light;
+            shadowed |= (uint32_t)1 << light;
+        }
     }
-    key->shadows = shadowed ? effects_shadows(scene) : 0;
+    key->shadows = shadowed ? scene->shadows : 0;
     key->maps = plan->maps & shadowed;
     for (uint32_t left = key->maps; left; left &= left - 1)
         key->looks[__builtin_ctz(left)] = (uint8_t)plan->lights[__builtin_ctz(left)].look;
@@ -130,7 +141,7 @@ static bool find_means(LightingPlan *plan, const Object *object, int number, Mes
 {
     PlannedObject *planned = &plan->objects[number];
     LightingMeshes *meshes = &plan->lighting->meshes;
-    const SceneFacts *scene = &plan->scenes[plan->in_parts ? number : 0];
+    const SceneFacts *scene = lighting_plan_facts(plan, number);
     LightingKey key;
     planned->variant = NULL;
     planned->drawn = lighting_mesh_buffer(meshes, object->mesh, remade_for(scene, object), message);
@@ -143,9 +154,9 @@ static bool find_means(LightingPlan *plan, const Object *object, int number, Mes
 }
 
 /* Finds the facts of a scene; whether they are new. */
-static bool find_scene(SceneFacts *facts, const Scene *scene)
+static bool find_scene(SceneFacts *facts, const EffectsView *view, const EffectsLights *lights)
 {
-    const SceneFacts now = effects_scene(scene);
+    const SceneFacts now = effects_scene(view, lights);
     if (memcmp(facts, &now, sizeof now) == 0)
         return false;
     *facts = now;
@@ -166,18 +177,20 @@ static bool object_failed(int number, const Message *why, Message *message)
 static bool plan_objects(LightingPlan *plan, const LightingFrame *frame, bool anew, bool unbuilt,
                          Message *message)
 {
-    EffectsView view;
+    EffectsView *view = &plan->view;
     bool changed = anew;
     for (int i = 0; i < plan->object_count; i++) {
         PlannedObject *planned = &plan->objects[i];
         const Object *object = object_of(frame, i);
-        if (i == 0 || frame->parts) {
-            const Scene *scene = frame->parts ? &frame->parts[i] : frame->scene;
-            changed = find_scene(&plan->scenes[i], scene) || anew;
-            effects_view(&view, scene);
-        }
-        ObjectFacts facts = effects_object(&view, object, &planned->place, plan->pairs.receives[i]);
-        if (plan->lighting->normal_matrix) /* wrong normals turn anywhere */
+        EffectsLights chosen;
+        if (i == 0 || frame->parts)
+            effects_view(view, frame->parts ? &frame->parts[i] : frame->scene);
+        const EffectsLights *lights = effects_lights(view, object, &planned->place, &chosen, NULL);
+        if (i == 0 || plan->each)
+            changed = find_scene(&plan->scenes[i], view, lights) || anew;
+        ObjectFacts facts =
+            effects_object(view, lights, object, &planned->place, plan->pairs.receives[i]);
+        if (view->any_normals)
             facts.behind = 0;
         const bool same = memcmp(&facts, &planned->facts, OBJECT_FACTS_DECIDE) == 0;
         planned->facts = facts;
@@ -193,9 +206,10 @@ static bool plan_objects(LightingPlan *plan, const LightingFrame *frame, bool an
 static bool check_frame(const LightingFrame *frame, Message *message)
 {
     const Scene *scene = frame->scene;
-    if (scene->light_count > EFFECTS_MAX_LIGHTS)
-        return message_set(message, "scene: %d lights: at most %d fit into one program",
-                           scene->light_count, EFFECTS_MAX_LIGHTS);
+    for (int i = SCENE_MAX_CASTING; i < scene->light_count; i++)
+        if (scene->lights[i].shadows && !scene->lights[i].off)
+            return message_set(message, "scene: light %d: only the first %d may cast shadows", i,
+                               SCENE_MAX_CASTING);
     if (scene_has_shadows(scene) && scene->clamp_vertex &&
         scene->interpolation != INTERPOLATION_PHONG)
         return message_set(message, "shadows are looked up at the fragments: light that is clamped "
@@ -231,6 +245,41 @@ bool lighting_decide(LightingPlan *plan, Lighting *lighting, const LightingFrame
 
 /* Reading it */
 
+const SceneFacts *lighting_plan_facts(const LightingPlan *plan, int object)
+{
+    return &plan->scenes[plan->each ? object : 0];
+}
+
+bool lighting_plan_reach(const LightingPlan *plan, int object, uint8_t *why)
+{
+    const Scene *parts = plan->frame.parts;
+    EffectsLights chosen;
+    EffectsView view = {.any_normals = plan->view.any_normals};
+    effects_view(&view, parts ? &parts[object] : plan->frame.scene);
+    const bool chooses = effects_lights(&view, object_of(&plan->frame, object),
+                                        &plan->objects[object].place, &chosen, why) == &chosen;
+    effects_view_close(&view);
+    return chooses;
+}
+
+/* "without lights 3 to 17, 20: it is off". */
+static void explain_left_out(const uint8_t *why, int count, FILE *file)
+{
+    for (int reach = REACH_YES + 1; reach < REACH_COUNT; reach++) {
+        const char *before = "without lights ";
+        for (int i = 0, next; i < count; i = next) {
+            for (next = i; next < count && why[next] == reach;)
+                next++;
+            if (next > i)
+                fprintf(file, next > i + 1 ? "%s%d to %d" : "%s%d", before, i, next - 1);
+            before = next > i ? ", " : before;
+            next = next > i ? next : i + 1;
+        }
+        if (before[0] == ',')
+            fprintf(file, ": %s\n", EFFECTS_REACHES[reach]);
+    }
+}
+
 Effects lighting_plan_effects(const LightingPlan *plan, int object)
 {
     LightingKey key;
@@ -240,7 +289,12 @@ Effects lighting_plan_effects(const LightingPlan *plan, int object)
 
 void lighting_plan_explain(const LightingPlan *plan, int object, FILE *file)
 {
-    effects_decide(&plan->scenes[plan->in_parts ? object : 0], &plan->objects[object].facts, file);
+    const int count = plan->frame.scene->light_count;
+    uint8_t *why = memory_new((size_t)count + 1, sizeof *why);
+    effects_decide(lighting_plan_facts(plan, object), &plan->objects[object].facts, file);
+    if (lighting_plan_reach(plan, object, why))
+        explain_left_out(why, count, file);
+    free(why);
 }
 
 bool lighting_plan_sources(const LightingPlan *plan, int object, bool full, ShaderSource sources[2],

@@ -16,7 +16,7 @@ static bool lights_moved(LightingPlan *plan, const Scene *scene)
 {
     bool moved = memcmp(&plan->eye, &scene->camera.eye, sizeof plan->eye) != 0;
     plan->eye = scene->camera.eye;
-    for (int l = 0; l < scene->light_count; l++) {
+    for (int l = 0; l < plan->light_count; l++) {
         const Light placed = scene_world_light(scene, l);
         moved |= memcmp(&plan->lights[l].placed, &placed, sizeof placed) != 0;
         memcpy(&plan->lights[l].placed, &placed, sizeof placed);
@@ -56,7 +56,7 @@ static int map_room(const LightingPlan *plan, const Scene *scene)
     glGetIntegerv(GL_MAX_VARYING_VECTORS, &varyings);
     glGetIntegerv(GL_MAX_TEXTURE_IMAGE_UNITS, &units);
     varyings -= 6 + (scene->interpolation == INTERPOLATION_PHONG ? 0 : 2 * lights);
-    units -= (scene->light_count + SHADOW_CHANNELS - 1) / SHADOW_CHANNELS; /* masks */
+    units -= (plan->light_count + SHADOW_CHANNELS - 1) / SHADOW_CHANNELS; /* masks */
     return varyings / 2 < units ? varyings / 2 : units;
 }
 
@@ -427,6 +427,9 @@ void lighting_plan_explain_shadows(const LightingPlan *plan, const Scene *scene,
     if (!scene_has_shadows(scene))
         return;
     fprintf(file, "# shadows\n");
+    if (scene->light_count > SCENE_MAX_CASTING)
+        fprintf(file, "lights %d to %d: none, because of a scene's lights the first %d cast them\n",
+                SCENE_MAX_CASTING, scene->light_count - 1, SCENE_MAX_CASTING);
     for (int l = 0; l < plan->light_count; l++) {
         if (!scene->lights[l].shadows || scene->lights[l].off)
             continue;

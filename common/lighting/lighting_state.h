@@ -16,10 +16,14 @@
 /* What a program is found by, as bytes. */
 typedef struct LightingKey {
     uint32_t shadows; /* the scene's lights that have them, a bit each: see effects_channel */
-    uint32_t maps;    /* those of them whose map the program looks up; of the others masks */
+    uint8_t numbers[EFFECTS_MAX_LIGHTS]; /* of the object's lights that have them, in the scene */
+    uint32_t maps; /* those of them whose map the program looks up; of the others masks */
     uint8_t looks[SHADOW_MAPS]; /* shadow_map_look of those */
     Effects effects;            /* the last: most of its groups are not used */
 } LightingKey;
+
+/* The channel of one of the object's lights that have shadows. */
+int lighting_channel(const LightingKey *key, int light);
 
 /* What determines a text: equal recipes give equal programs. */
 enum { LIGHTING_DEFINES = 32 };

@@ -17,6 +17,11 @@ bool lighting_is_mediump(const ShaderLoader *loader)
     return loader->precision && strcmp(loader->precision, "mediump") == 0;
 }
 
+int lighting_channel(const LightingKey *key, int light)
+{
+    return effects_channel(key->shadows, key->numbers[light]);
+}
+
 /* The uniforms of group.glsl, renamed per group. */
 static const char *const GROUP_UNIFORMS[] = {
     "u_Position",    "u_Direction",     "u_FrontAmbient", "u_BackAmbient", "u_FrontDiffuse",
@@ -83,7 +88,7 @@ static Shadows shadows_of(const LightingKey *key)
     for (int g = 0; g < key->effects.group_count; g++) {
         const LightGroup *group = &key->effects.groups[g];
         for (int i = 0; group->terms.shadow && i < group->count; i++) {
-            const int light = group->lights[i];
+            const int light = key->numbers[group->lights[i]];
             if (key->maps >> light & 1)
                 shadows.maps |= (uint32_t)1 << light;
             else
@@ -185,7 +190,7 @@ static void write_vertex_shadows(const LightingKey *key, bool at_vertex, FILE *f
     for (int g = 0, first = 0; g < effects->group_count; g++) {
         const LightGroup *group = &effects->groups[g];
         for (int i = 0; group->terms.at_vertex && group->terms.shadow && i < group->count; i++) {
-            const int channel = effects_channel(key->shadows, group->lights[i]) % SHADOW_CHANNELS;
+            const int channel = lighting_channel(key, group->lights[i]) % SHADOW_CHANNELS;
             fprintf(file, " + (1.0 - shadow_mask%d.%c) * SIDE(v_FrontDirect[%d], v_BackDirect[%d])",
                     group->terms.shadow - 1, "rgba"[channel], first, first);
             first++;
@@ -205,7 +210,7 @@ static void write_shadowed(const LightingKey *key, const LightGroup *group, int 
                 g, mask);
     else
         fprintf(file, "#define SHADOWED shadow_mask%d.%c\n", mask,
-                "rgba"[effects_channel(key->shadows, group->lights[0]) % SHADOW_CHANNELS]);
+                "rgba"[lighting_channel(key, group->lights[0]) % SHADOW_CHANNELS]);
 }
 
 /* A function for a group; `shadowed`: how many lights of those before it have shadows. */

@@ -50,7 +50,16 @@ static bool varies(const LightFacts *light)
     return light->kind == LIGHT_SPOT || light->fades;
 }
 
-static const char *const turned = "all of the surface turns away from it";
+const char *const EFFECTS_REACHES[REACH_COUNT] = {
+    [REACH_YES] = "it reaches the object",
+    [REACH_OFF] = "it is off",
+    [REACH_RANGE] = "the object is beyond its range",
+    [REACH_CONE] = "its cone misses the object",
+    [REACH_BEHIND] = "all of the surface turns away from it",
+    [REACH_BLACK] = "the material reflects none of its colour",
+    [REACH_FAINT] = "too faint: with all that are less than half a step of 1/255",
+    [REACH_MORE] = "lights but the 32 brightest: left out",
+};
 
 /* Where nothing of it is reflected; a negative N.L may take light away. */
 static bool is_behind(const Decision *made, int number)
@@ -64,11 +73,12 @@ static void explain_light(const Decision *made, int number, const LightTerms *te
 {
     static const char *const kinds[] = {
         [LIGHT_DIRECTIONAL] = "directional", [LIGHT_POINT] = "point", [LIGHT_SPOT] = "spot"};
-    const char *const black = is_behind(made, number) ? turned : "black in light or material";
+    const char *const black =
+        is_behind(made, number) ? EFFECTS_REACHES[REACH_BEHIND] : "black in light or material";
     const int interpolation = made->scene->interpolation;
     const bool positional = terms->kind != LIGHT_DIRECTIONAL;
     FILE *why = made->why;
-    say(why, "light %d: %s, computed at the %s", number, kinds[terms->kind],
+    say(why, "light %d: %s, computed at the %s", made->scene->numbers[number], kinds[terms->kind],
         !terms->at_vertex                        ? "fragments"
         : interpolation == INTERPOLATION_PHONG   ? "vertices: constant over a flat triangle"
         : interpolation == INTERPOLATION_GOURAUD ? "vertices: colours are interpolated"
@@ -136,27 +146,24 @@ static bool decide_terms(const Decision *made, int number, LightTerms *terms)
     const ObjectFacts *object = made->object;
     const LightFacts *light = &scene->lights[number];
     const bool positional = light->kind != LIGHT_DIRECTIONAL;
-    if (light->off) {
-        say(made->why, "without light %d: it is off", number);
-        return false;
-    }
-    if (object->missed >> number & 1) {
-        say(made->why, "without light %d: its cone misses the object", number);
-        return false;
-    }
-    if (object->beyond_range >> number & 1) {
-        say(made->why, "without light %d: the object is beyond its range", number);
+    const int named = scene->numbers[number];
+    const EffectsReach reach = light->off                           ? REACH_OFF
+                               : object->missed >> number & 1       ? REACH_CONE
+                               : object->beyond_range >> number & 1 ? REACH_RANGE
+                                                                    : REACH_YES;
+    if (reach) {
+        say(made->why, "without light %d: %s", named, EFFECTS_REACHES[reach]);
         return false;
     }
     if (object->faint >> number & 1) {
         say(made->why,
             "without light %d: too faint: at most %.1f steps of 1/255, with all that are less than half",
-            number, ceil(10 * (double)object->steps[number]) / 10);
+            named, ceil(10 * (double)object->steps[number]) / 10);
         return false;
     }
     if (!reflected_terms(made, number, terms)) {
-        say(made->why, "without light %d: %s%s", number,
-            is_behind(made, number) ? turned : "the material reflects none of its colour",
+        say(made->why, "without light %d: %s%s", named,
+            EFFECTS_REACHES[is_behind(made, number) ? REACH_BEHIND : REACH_BLACK],
             reflected(made, light->ambient, object->front.ambient, object->back.ambient)
                 ? " but the ambient, which is constant and part of the base"
                 : "");
@@ -165,7 +172,7 @@ static bool decide_terms(const Decision *made, int number, LightTerms *terms)
     terms->half_vector = terms->specular && !positional && scene->distant_viewer &&
                          scene->reflection == REFLECTION_BLINN_PHONG;
     if ((object->shadowed >> number & 1) && (terms->diffuse || terms->specular))
-        terms->shadow = 1 + effects_channel(effects_shadows(scene), number) / SHADOW_CHANNELS;
+        terms->shadow = 1 + effects_channel(scene->shadows, named) / SHADOW_CHANNELS;
     const bool same_over_triangle =
         object->flat && !positional && (!terms->specular || scene->distant_viewer);
     terms->at_vertex =
@@ -192,16 +199,8 @@ static void add_light(Effects *effects, int number, const LightTerms *terms, boo
 static bool has_base(const Decision *made)
 {
     const SideFacts *front = &made->object->front, *back = &made->object->back;
-    if (reflected(made, 7, front->emission, back->emission) ||
-        reflected(made, made->scene->global_ambient, front->ambient, back->ambient))
-        return true;
-    for (int i = 0; i < made->scene->light_count; i++) {
-        const LightFacts *light = &made->scene->lights[i];
-        if (!light->off && !varies(light) &&
-            reflected(made, light->ambient, front->ambient, back->ambient))
-            return true;
-    }
-    return false;
+    return reflected(made, 7, front->emission, back->emission) ||
+           reflected(made, made->scene->ambient, front->ambient, back->ambient);
 }
 
 static void decide_sides(Decision *made)
@@ -354,7 +353,6 @@ Effects effects_decide_full(const SceneFacts *scene, const ObjectFacts *object)
     full->phong = scene->reflection == REFLECTION_PHONG;
     full->lit_positions = scene->interpolation == INTERPOLATION_CONSTANT;
     decide_output(&made, true);
-    const uint32_t shadows = effects_shadows(scene);
     for (int i = 0; i < scene->light_count; i++) {
         LightTerms terms;
         memset(&terms, 0, sizeof terms);
@@ -364,8 +362,8 @@ Effects effects_decide_full(const SceneFacts *scene, const ObjectFacts *object)
         terms.range = scene->lights[i].range;
         terms.signed_dots = scene->signed_dots && !scene->lights[i].shadows;
         terms.at_vertex = scene->interpolation != INTERPOLATION_PHONG;
-        if (shadows >> i & 1)
-            terms.shadow = 1 + effects_channel(shadows, i) / SHADOW_CHANNELS;
+        if (scene->lights[i].shadows)
+            terms.shadow = 1 + effects_channel(scene->shadows, scene->numbers[i]) / SHADOW_CHANNELS;
         add_light(full, i, &terms, true);
     }
     return made.effects;

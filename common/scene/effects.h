@@ -15,7 +15,18 @@
 #include <stddef.h>
 #include <stdio.h>
 
+/* Of an object, because they are a program's uniforms. A scene may have more: then each object gets
+ * those that reach it. */
 enum { EFFECTS_MAX_LIGHTS = 32 };
+
+/* The lights of an object, by their numbers in the scene, in its order. */
+typedef struct EffectsLights {
+    int count;
+    uint16_t numbers[EFFECTS_MAX_LIGHTS];
+    uint32_t on, spots, fading; /* a bit for each of them; of those that are on */
+    double spent; /* what the faint lights add that are not among them, at most; if also others are
+                     not, all that faint ones may add */
+} EffectsLights;
 
 /* The terms of one light. Lights with equal terms share a loop. */
 typedef struct LightTerms {
@@ -35,7 +46,7 @@ typedef struct LightTerms {
     int shadow;
 } LightTerms;
 
-/* Lights with equal terms, as indices into the scene's lights. */
+/* Lights with equal terms, as indices into the object's lights. */
 typedef struct LightGroup {
     LightTerms terms;
     int count;
@@ -78,11 +89,15 @@ typedef struct LightFacts {
     uint8_t ambient, diffuse, specular;
 } LightFacts;
 
+/* Of a scene and the lights of an object. */
 typedef struct SceneFacts {
+    uint32_t shadows; /* the scene's lights that have them, a bit each: see effects_channel */
+    uint16_t numbers[EFFECTS_MAX_LIGHTS]; /* in the scene */
     LightFacts lights[EFFECTS_MAX_LIGHTS];
-    uint8_t light_count, global_ambient, reflection, interpolation;
+    uint8_t light_count, ambient, reflection, interpolation; /* ambient: all that is constant */
     uint8_t distant_viewer, clamp_vertex, skip_renormalization, linear, show_clipped, signed_dots;
-    uint8_t limit; /* its colors may be very large */
+    uint8_t limit;  /* its colors may be very large */
+    uint8_t unused; /* instead of padding */
 } SceneFacts;
 
 typedef struct SideFacts {
@@ -90,7 +105,7 @@ typedef struct SideFacts {
 } SideFacts;
 
 typedef struct ObjectFacts {
-    /* A bit for each light: */
+    /* A bit for each of its lights: */
     uint32_t missed; /* a spot, whose cone misses the object */
     uint32_t beyond_range;
     uint32_t behind;   /* all of the surface turns away from it */
@@ -105,10 +120,9 @@ typedef struct ObjectFacts {
     /* Decides nothing: of each light that is faint, how much it adds to a pixel at most, in steps
      * of 1/255. */
     float steps[EFFECTS_MAX_LIGHTS];
+    float spent; /* the same of the scene's lights that are not among its own */
 } ObjectFacts;
 enum { OBJECT_FACTS_DECIDE = offsetof(ObjectFacts, steps) }; /* so many bytes */
-
-SceneFacts effects_scene(const Scene *scene);
 
 /* Of an object's transform, up to a rotation and a translation: none, a factor, one whose square
  * leaves a 16-bit float, anything. */
@@ -133,19 +147,49 @@ typedef struct EffectsPlace {
 } EffectsPlace;
 EffectsPlace effects_place(const Object *object, const MeshBox *box, const NormalCone *normals);
 
+typedef struct EffectsLight {
+    Light light;         /* in the world */
+    double brightest[3]; /* ambient that varies, diffuse, specular */
+} EffectsLight;
+
 /* A scene's lights and eye, for all its objects. */
 typedef struct EffectsView {
     const Scene *scene;
     Mat4 eye_from_world;
-    Light lights[EFFECTS_MAX_LIGHTS];        /* in the world */
-    double brightest[EFFECTS_MAX_LIGHTS][3]; /* ambient that varies, diffuse, specular */
-    uint32_t on, spots, fading;              /* a bit each; of those that are on */
+    EffectsLight *lights; /* of the scene */
+    int room;
+    EffectsLights all; /* if an object may have all */
+    uint32_t shadows;  /* as in SceneFacts, and so on */
+    uint8_t ambient, limit;
+    bool any_normals; /* the caller's: they are not the mesh's */
 } EffectsView;
-void effects_view(EffectsView *view, const Scene *scene);
+void effects_view(EffectsView *view, const Scene *scene); /* zeroed, or of another scene */
+void effects_view_close(EffectsView *view);               /* zeroed is fine */
 
-/* `shadowed`: the lights (a bit each) in whose shadow it may lie: scene/shadow_pairs.h. */
-ObjectFacts effects_object(const EffectsView *view, const Object *object, const EffectsPlace *place,
-                           uint32_t shadowed);
+/* Whether a light is among an object's, or why not. */
+typedef enum EffectsReach {
+    REACH_YES,
+    REACH_OFF,
+    REACH_RANGE,
+    REACH_CONE,
+    REACH_BEHIND,
+    REACH_BLACK,
+    REACH_FAINT,
+    REACH_MORE,
+    REACH_COUNT
+} EffectsReach;
+extern const char *const EFFECTS_REACHES[REACH_COUNT]; /* as sentences, after the light */
+
+/* The lights of an object: `view->all`, or `chosen`; and, unless `why` is NULL, an EffectsReach for
+ * each light of the scene. */
+const EffectsLights *effects_lights(const EffectsView *view, const Object *object,
+                                    const EffectsPlace *place, EffectsLights *chosen, uint8_t *why);
+
+SceneFacts effects_scene(const EffectsView *view, const EffectsLights *lights);
+
+/* `shadowed`: the scene's lights (a bit each) in whose shadow it may lie: scene/shadow_pairs.h. */
+ObjectFacts effects_object(const EffectsView *view, const EffectsLights *lights,
+                           const Object *object, const EffectsPlace *place, uint32_t shadowed);
 
 /* Writes, unless `why` is NULL, a line for each effect and for each one left out, with the reason:
  * "specular: in light and material", "without light 2: it is off". */
@@ -156,9 +200,7 @@ Effects effects_decide(const SceneFacts *scene, const ObjectFacts *object, FILE 
  * coefficients: there are shadows if a light of the scene has them. */
 Effects effects_decide_full(const SceneFacts *scene, const ObjectFacts *object);
 
-/* The lights that have shadows, a bit each; the number of a light among them, for which the masks
- * have a channel each. */
-uint32_t effects_shadows(const SceneFacts *scene);
+/* The number of a light among those that have shadows, for which the masks have a channel each. */
 int effects_channel(uint32_t shadows, int light);
 
 /* A side's material; with vertex colors, its ambient and diffuse reflectivity are those, and white

@@ -6,15 +6,18 @@
  */
 #include "scene/effects.h"
 
+#include "base/memory.h"
 #include "core/matrix_vectors.h"
 #include "scene/shadow_pairs.h"
 
 #include <assert.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static_assert(OBJECT_FACTS_DECIDE == 6 * 4 + 2 * sizeof(SideFacts) + 10, "no padding");
-static_assert(sizeof(SceneFacts) == EFFECTS_MAX_LIGHTS * sizeof(LightFacts) + 11, "no padding");
+static_assert(sizeof(SceneFacts) == EFFECTS_MAX_LIGHTS * (sizeof(LightFacts) + 2) + 16,
+              "no padding");
 
 static uint8_t channels_of(Vec3 color)
 {
@@ -41,14 +44,14 @@ static double brightest(const Scene *scene)
     return sum;
 }
 
-SceneFacts effects_scene(const Scene *scene)
+SceneFacts effects_scene(const EffectsView *view, const EffectsLights *lights)
 {
+    const Scene *scene = view->scene;
     SceneFacts facts;
     memset(&facts, 0, sizeof facts);
-    const int count =
-        scene->light_count < EFFECTS_MAX_LIGHTS ? scene->light_count : EFFECTS_MAX_LIGHTS;
-    for (int i = 0; i < count; i++) {
-        const Light *light = &scene->lights[i];
+    for (int i = 0; i < lights->count; i++) {
+        const Light *light = &scene->lights[lights->numbers[i]];
+        facts.numbers[i] = lights->numbers[i];
         facts.lights[i] = (LightFacts){
             .kind = (uint8_t)light->kind,
             .off = light->off,
@@ -61,8 +64,9 @@ SceneFacts effects_scene(const Scene *scene)
             .specular = channels_of(light->specular),
         };
     }
-    facts.light_count = (uint8_t)count;
-    facts.global_ambient = channels_of(scene->global_ambient);
+    facts.shadows = view->shadows;
+    facts.light_count = (uint8_t)lights->count;
+    facts.ambient = view->ambient;
     facts.reflection = (uint8_t)scene->reflection;
     facts.interpolation = (uint8_t)scene->interpolation;
     facts.distant_viewer = scene->distant_viewer;
@@ -71,7 +75,7 @@ SceneFacts effects_scene(const Scene *scene)
     facts.linear = scene->linear;
     facts.signed_dots = scene->signed_dots;
     facts.show_clipped = scene->show_clipped;
-    facts.limit = brightest(scene) > 6e4;
+    facts.limit = view->limit;
     return facts;
 }
 
@@ -171,23 +175,57 @@ EffectsPlace effects_place(const Object *object, const MeshBox *box, const Norma
                           placed_cone(object->world_from_object, normals, transform)};
 }
 
+static const Light *light_of(const EffectsView *view, const EffectsLights *lights, int number)
+{
+    return &view->lights[lights->numbers[number]].light;
+}
+
+static void find_bits(EffectsLights *lights, const EffectsView *view)
+{
+    lights->on = lights->spots = lights->fading = 0;
+    for (int i = 0; i < lights->count; i++) {
+        const Light *light = light_of(view, lights, i);
+        const uint32_t bit = light->off ? 0 : (uint32_t)1 << i;
+        lights->on |= bit;
+        lights->spots |= light->kind == LIGHT_SPOT ? bit : 0;
+        lights->fading |= light_fades(light) ? bit : 0;
+    }
+}
+
 void effects_view(EffectsView *view, const Scene *scene)
 {
     Mat4 clip_from_eye;
     view->scene = scene;
-    view->on = view->spots = view->fading = 0;
+    view->shadows = 0;
+    view->ambient = channels_of(scene->global_ambient);
+    view->limit = brightest(scene) > 6e4;
+    view->all.count = 0;
     scene_camera(&scene->camera, 1, &view->eye_from_world, &clip_from_eye, NULL);
-    for (int i = 0; i < scene->light_count && i < EFFECTS_MAX_LIGHTS; i++) {
-        const Light *light = &scene->lights[i];
-        const uint32_t bit = (uint32_t)1 << i;
-        view->lights[i] = scene_world_light(scene, i);
-        view->brightest[i][0] = light_ambient_varies(light) ? largest_of(light->ambient) : 0;
-        view->brightest[i][1] = largest_of(light->diffuse);
-        view->brightest[i][2] = largest_of(light->specular);
-        view->on |= light->off ? 0 : bit;
-        view->spots |= !light->off && light->kind == LIGHT_SPOT ? bit : 0;
-        view->fading |= !light->off && light_fades(light) ? bit : 0;
+    if (scene->light_count > view->room) {
+        view->room = scene->light_count;
+        view->lights = memory_grow(view->lights, (size_t)view->room, sizeof *view->lights);
     }
+    for (int i = 0; i < scene->light_count; i++) {
+        const Light *light = &scene->lights[i];
+        const bool varies = light_ambient_varies(light);
+        EffectsLight *made = &view->lights[i];
+        made->light = scene_world_light(scene, i);
+        made->brightest[0] = varies ? largest_of(light->ambient) : 0;
+        made->brightest[1] = largest_of(light->diffuse);
+        made->brightest[2] = largest_of(light->specular);
+        view->ambient |= light->off || varies ? 0 : channels_of(light->ambient);
+        if (i < SCENE_MAX_CASTING)
+            view->shadows |= (uint32_t)light->shadows << i;
+        if (scene->light_count <= EFFECTS_MAX_LIGHTS)
+            view->all.numbers[view->all.count++] = (uint16_t)i;
+    }
+    find_bits(&view->all, view);
+}
+
+void effects_view_close(EffectsView *view)
+{
+    free(view->lights);
+    *view = (EffectsView){.scene = NULL};
 }
 
 /* Whether the attenuation of a light at the object needs a guard: its denominator may vanish in
@@ -235,32 +273,55 @@ static bool is_behind(const EffectsView *view, const Light *light, const Effects
     return cosine * depth - sine * beside > ROUNDING * (directional ? 1 : size);
 }
 
-/* The lights that are too faint, the faintest first, as long as all together add less than half a
- * step to any pixel. A light adds its colours times the material's at most, for no cosine, power of
- * one or spot is above 1, times its attenuation where it comes nearest. Encoding as sRGB makes a
- * step near black up to 12.92 steps (IEC 61966-2-1). Where a colour above 1 is highlighted, any
- * light may decide. */
-static uint32_t faint_lights(const EffectsView *view, const Object *object, Sphere sphere,
-                             uint32_t lights, float steps[EFFECTS_MAX_LIGHTS])
+/* What an object reflects of ambient, diffuse and specular light at most. */
+typedef struct Reflects {
+    double most[3];
+} Reflects;
+
+static Reflects reflects_of(const Object *object)
+{
+    const Material front = effects_material(object, false), back = effects_material(object, true);
+    return (Reflects){{fmax(largest_of(front.ambient), largest_of(back.ambient)),
+                       fmax(largest_of(front.diffuse), largest_of(back.diffuse)),
+                       fmax(largest_of(front.specular), largest_of(back.specular))}};
+}
+
+/* A light adds its colours times the material's at most, for no cosine, power of one or spot is
+ * above 1, times its attenuation where it comes nearest. */
+static double most_added(const EffectsLight *light, const Reflects *reflects, Sphere sphere)
 {
     static const double ROUNDING = 1.001;
-    const Scene *scene = view->scene;
-    const Material sides[2] = {effects_material(object, false), effects_material(object, true)};
-    const double step = 1.0 / 255 / (scene->linear ? 12.92 : 1);
-    double left = step / 2, adds[EFFECTS_MAX_LIGHTS], reflects[3];
+    const double *color = light->brightest, *most = reflects->most;
+    const double sum = most[0] * color[0] + most[1] * color[1] + most[2] * color[2];
+    const double distance = light_fades(&light->light) ? nearest_to(&light->light, sphere) : 0;
+    return ROUNDING * sum * light_attenuation(&light->light, distance);
+}
+
+/* Encoding as sRGB makes a step near black up to 12.92 steps (IEC 61966-2-1). */
+static double step_of(const Scene *scene)
+{
+    return 1.0 / 255 / (scene->linear ? 12.92 : 1);
+}
+
+/* What too faint lights may add together: less than half a step. Where a colour above 1 is
+ * highlighted, any light may decide. */
+static double most_faint(const Scene *scene, const Object *object)
+{
+    return scene->show_clipped || object->mesh->lit_positions ? 0 : step_of(scene) / 2;
+}
+
+/* The lights that are too faint, the faintest first, as long as all together may be. */
+static uint32_t faint_lights(const EffectsView *view, const EffectsLights *lights,
+                             const Object *object, Sphere sphere, ObjectFacts *facts)
+{
+    const Reflects reflects = reflects_of(object);
+    double left = most_faint(view->scene, object) - lights->spent, adds[EFFECTS_MAX_LIGHTS];
     uint32_t faint = 0, candidates = 0;
-    if (scene->show_clipped || object->mesh->lit_positions)
-        return 0;
-    reflects[0] = fmax(largest_of(sides[0].ambient), largest_of(sides[1].ambient));
-    reflects[1] = fmax(largest_of(sides[0].diffuse), largest_of(sides[1].diffuse));
-    reflects[2] = fmax(largest_of(sides[0].specular), largest_of(sides[1].specular));
-    for (uint32_t rest = lights; rest; rest &= rest - 1) {
+    facts->spent = (float)(lights->spent / step_of(view->scene));
+    for (uint32_t rest = lights->on & ~(facts->missed | facts->beyond_range | facts->behind);
+         rest && left > 0; rest &= rest - 1) {
         const int i = __builtin_ctz(rest);
-        const Light *light = &view->lights[i];
-        const double *color = view->brightest[i];
-        const double sum = reflects[0] * color[0] + reflects[1] * color[1] + reflects[2] * color[2];
-        const double distance = rest & -rest & view->fading ? nearest_to(light, sphere) : 0;
-        adds[i] = ROUNDING * sum * light_attenuation(light, distance);
+        adds[i] = most_added(&view->lights[lights->numbers[i]], &reflects, sphere);
         candidates |= adds[i] > 0 && adds[i] < left ? rest & -rest : 0;
     }
     while (candidates) {
@@ -271,7 +332,7 @@ static uint32_t faint_lights(const EffectsView *view, const Object *object, Sphe
         if (left < 0)
             break;
         faint |= (uint32_t)1 << least;
-        steps[least] = (float)(adds[least] / step);
+        facts->steps[least] = (float)(adds[least] / step_of(view->scene));
         candidates &= ~((uint32_t)1 << least);
     }
     return faint;
@@ -285,13 +346,18 @@ static SideFacts side_facts(const Object *object, const Material *material)
                        channels_of(material->emission), material->alpha != 1};
 }
 
-ObjectFacts effects_object(const EffectsView *view, const Object *object, const EffectsPlace *place,
-                           uint32_t shadowed)
+/* Whether its surface may turn away from a light. */
+static bool has_one_side(const Object *object, const EffectsPlace *place)
+{
+    return place->normals.cosine > 0 && !object->two_sided && !object->wrong_normals;
+}
+
+ObjectFacts effects_object(const EffectsView *view, const EffectsLights *lights,
+                           const Object *object, const EffectsPlace *place, uint32_t shadowed)
 {
     const Camera *camera = &view->scene->camera;
     const Vec3 center = scene_eye_point(camera, view->eye_from_world, place->sphere.center);
     ObjectFacts facts = {
-        .shadowed = shadowed,
         .front = side_facts(object, &object->front),
         .colors = object->mesh->colors != NULL,
         .flat = object->flat,
@@ -303,30 +369,105 @@ ObjectFacts effects_object(const EffectsView *view, const Object *object, const 
         .beyond = -center.z - place->sphere.radius > camera->near,
     };
     facts.back = object->two_sided ? side_facts(object, &object->back) : facts.front;
-    for (uint32_t left = view->spots; left; left &= left - 1)
-        if (cone_misses(&view->lights[__builtin_ctz(left)], place->sphere))
+    for (int i = 0; i < lights->count && shadowed; i++)
+        if (lights->numbers[i] < SCENE_MAX_CASTING && shadowed >> lights->numbers[i] & 1)
+            facts.shadowed |= (uint32_t)1 << i;
+    for (uint32_t left = lights->spots; left; left &= left - 1)
+        if (cone_misses(light_of(view, lights, __builtin_ctz(left)), place->sphere))
             facts.missed |= left & -left;
-    for (uint32_t left = view->fading; left; left &= left - 1)
-        if (beyond_range(&view->lights[__builtin_ctz(left)], place->sphere))
+    for (uint32_t left = lights->fading; left; left &= left - 1)
+        if (beyond_range(light_of(view, lights, __builtin_ctz(left)), place->sphere))
             facts.beyond_range |= left & -left;
-        else if (attenuation_guarded(&view->lights[__builtin_ctz(left)], place->sphere))
+        else if (attenuation_guarded(light_of(view, lights, __builtin_ctz(left)), place->sphere))
             facts.guarded |= left & -left;
-    const bool one_side = place->normals.cosine > 0 && !object->two_sided && !object->wrong_normals;
-    for (uint32_t left = one_side ? view->on : 0; left; left &= left - 1)
-        if (is_behind(view, &view->lights[__builtin_ctz(left)], place))
+    for (uint32_t left = has_one_side(object, place) ? lights->on : 0; left; left &= left - 1)
+        if (is_behind(view, light_of(view, lights, __builtin_ctz(left)), place))
             facts.behind |= left & -left;
-    facts.faint =
-        faint_lights(view, object, place->sphere,
-                     view->on & ~(facts.missed | facts.beyond_range | facts.behind), facts.steps);
+    facts.faint = faint_lights(view, lights, object, place->sphere, &facts);
     return facts;
 }
 
-uint32_t effects_shadows(const SceneFacts *scene)
+/* Of more lights than an object may have. */
+
+static EffectsReach reach_of(const EffectsView *view, const EffectsLight *light,
+                             const Object *object, const EffectsPlace *place)
 {
-    uint32_t shadows = 0;
-    for (int i = 0; i < scene->light_count; i++)
-        shadows |= (uint32_t)scene->lights[i].shadows << i;
-    return shadows;
+    const Light *placed = &light->light;
+    if (placed->off)
+        return REACH_OFF;
+    if (beyond_range(placed, place->sphere))
+        return REACH_RANGE;
+    if (placed->kind == LIGHT_SPOT && cone_misses(placed, place->sphere))
+        return REACH_CONE;
+    /* Ambient light arrives from behind, and a negative N.L takes light away. */
+    if (light->brightest[0] == 0 && (!view->scene->signed_dots || placed->shadows) &&
+        !view->any_normals && has_one_side(object, place) && is_behind(view, placed, place))
+        return REACH_BEHIND;
+    return REACH_YES;
+}
+
+static int by_number(const void *a, const void *b)
+{
+    return (int)*(const uint16_t *)a - (int)*(const uint16_t *)b;
+}
+
+/* What is kept of those that reach an object: so many of the brightest. */
+typedef struct Kept {
+    EffectsLights *lights;
+    double adds[EFFECTS_MAX_LIGHTS];
+    int least;
+    double left_out; /* what the others add */
+} Kept;
+
+/* Returns which light is left out; -1: none. */
+static int keep(Kept *kept, int number, double adds)
+{
+    EffectsLights *lights = kept->lights;
+    int place = lights->count, out = -1;
+    if (place == EFFECTS_MAX_LIGHTS) {
+        kept->left_out += fmin(adds, kept->adds[kept->least]);
+        if (adds <= kept->adds[kept->least])
+            return number;
+        place = kept->least;
+        out = lights->numbers[place];
+    } else {
+        lights->count++;
+    }
+    lights->numbers[place] = (uint16_t)number;
+    kept->adds[place] = adds;
+    for (int i = 0; lights->count == EFFECTS_MAX_LIGHTS && i < EFFECTS_MAX_LIGHTS; i++)
+        kept->least = i == 0 || kept->adds[i] < kept->adds[kept->least] ? i : kept->least;
+    return out;
+}
+
+const EffectsLights *effects_lights(const EffectsView *view, const Object *object,
+                                    const EffectsPlace *place, EffectsLights *chosen, uint8_t *why)
+{
+    const int count = view->scene->light_count;
+    if (count <= EFFECTS_MAX_LIGHTS)
+        return &view->all;
+    const double most = most_faint(view->scene, object);
+    const Reflects reflects = reflects_of(object);
+    Kept kept = {.lights = chosen};
+    *chosen = (EffectsLights){.count = 0};
+    for (int i = 0; i < count; i++) {
+        const EffectsLight *light = &view->lights[i];
+        EffectsReach reach = reach_of(view, light, object, place);
+        const double adds = reach ? 0 : most_added(light, &reflects, place->sphere);
+        reach = reach || adds > 0 ? reach : REACH_BLACK;
+        const int out = reach ? -1 : keep(&kept, i, adds);
+        if (why)
+            why[i] = (uint8_t)reach;
+        if (why && out >= 0)
+            why[out] = REACH_MORE;
+    }
+    for (int i = 0; why && kept.left_out <= most && i < count; i++)
+        why[i] = why[i] == REACH_MORE ? REACH_FAINT : why[i];
+    if (kept.left_out > 0)
+        qsort(chosen->numbers, EFFECTS_MAX_LIGHTS, sizeof *chosen->numbers, by_number);
+    chosen->spent = fmin(kept.left_out, most);
+    find_bits(chosen, view);
+    return chosen;
 }
 
 int effects_channel(uint32_t shadows, int light)

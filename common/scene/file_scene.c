@@ -176,13 +176,16 @@ static Sphere sphere_around(const FileScene *made, int number)
     return scene_sphere(&object, &box);
 }
 
-/* Of the objects, all but the brightest tenth are not brighter. */
+/* Of the objects, or some of very many, all but the brightest tenth are not brighter. */
 static double usual_brightness(const FileScene *made)
 {
-    const size_t count = (size_t)made->file.object_count;
+    static const long long MOST = 10000000;
+    const long long pairs = (long long)made->file.object_count * made->file.light_count;
+    const size_t step = (size_t)(1 + pairs / MOST);
+    const size_t count = ((size_t)made->file.object_count + step - 1) / step;
     double *all = memory_new(count, sizeof *all);
     for (size_t i = 0; i < count; i++) {
-        const Sphere around = sphere_around(made, (int)i);
+        const Sphere around = sphere_around(made, (int)(i * step));
         for (int k = 0; k < made->file.light_count; k++)
             all[i] += brightness(&made->lights[k], around);
     }
@@ -190,39 +193,6 @@ static double usual_brightness(const FileScene *made)
     const double found = all[(count - 1) * 9 / 10];
     free(all);
     return found;
-}
-
-/* Of more lights than a scene may have, those that are brightest at any object, or at some of very
- * many. */
-static void keep_brightest_lights(FileScene *made)
-{
-    static const long long MOST = 10000000;
-    SceneFile *file = &made->file;
-    const int count = file->light_count, spare = count - EFFECTS_MAX_LIGHTS;
-    const int step = 1 + (int)((long long)count * file->object_count / MOST);
-    if (spare <= 0)
-        return;
-    double *most = memory_new(2 * (size_t)count, sizeof *most), *sorted = most + count;
-    for (int i = 0; i < file->object_count; i += step) {
-        const Sphere around = sphere_around(made, i);
-        for (int k = 0; k < count; k++) {
-            const Light light = light_at(made, &file->lights[k]);
-            most[k] = fmax(most[k], brightness(&light, around));
-        }
-    }
-    memcpy(sorted, most, (size_t)count * sizeof *most);
-    qsort(sorted, (size_t)count, sizeof *sorted, clock_compare);
-    const double least = sorted[spare];
-    int kept = 0, equal = 0; /* to be kept */
-    for (int k = spare; k < count; k++)
-        equal += sorted[k] == least;
-    for (int k = 0; k < count; k++)
-        if (most[k] > least || (most[k] == least && equal-- > 0))
-            file->lights[kept++] = file->lights[k];
-        else
-            scene_file_note(file, true, NOTE_LIGHTS);
-    free(most);
-    file->light_count = kept;
 }
 
 static void choose_exposure(FileScene *made, double asked)
@@ -272,10 +242,10 @@ static bool open_file(FileScene *made, const FileSceneOptions *options, Message 
         return false;
     made->poses = memory_new((size_t)file->node_count + 1, sizeof *made->poses);
     made->objects = memory_new((size_t)file->object_count, sizeof *made->objects);
+    made->lights = memory_new((size_t)file->light_count + 1, sizeof *made->lights);
     made->exposure = 1;
     scene_file_pose(file, 0, made->poses);
     find_middle(made);
-    keep_brightest_lights(made);
     choose_exposure(made, options->exposure);
     file_scene_make(made, 0, &scene);
     return scene_check(&scene, message);
@@ -302,8 +272,10 @@ void file_scene_make(FileScene *made, double seconds, Scene *scene)
         made->objects[i].mesh = &file->meshes[file->objects[i].mesh];
         made->objects[i].world_from_object = made->poses[file->objects[i].node];
     }
-    for (int i = 0; i < file->light_count; i++)
+    for (int i = 0; i < file->light_count; i++) {
         made->lights[i] = light_at(made, &file->lights[i]);
+        made->lights[i].shadows &= i < SCENE_MAX_CASTING;
+    }
     if (file->light_count == 0 && !file->own)
         made->lights[0] = viewers_light();
     scene->lights = made->lights;
@@ -332,5 +304,6 @@ void file_scene_close(FileScene *made)
     scene_file_close(&made->file);
     free(made->poses);
     free(made->objects);
+    free(made->lights);
     *made = (FileScene){.camera = -1};
 }

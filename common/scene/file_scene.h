@@ -26,7 +26,7 @@ typedef struct FileScene {
     double radius;
     Mat4 *poses;
     Object *objects;
-    Light lights[EFFECTS_MAX_LIGHTS];
+    Light *lights;
 } FileScene;
 
 /* Closed after a failure, too. */

@@ -260,8 +260,9 @@ bool quality_parts_open(QualityParts *made, const Scene *scene, const ObjectQual
         *part = *scene;
         part->objects = object;
         part->object_count = 1;
-        part->lights = made->lights + i * lights;
-        for (size_t k = 0; k < lights; k++)
+        const bool same = !(quality->far_lights | quality->matte_lights | quality->dark_lights);
+        part->lights = same ? scene->lights : made->lights + i * lights;
+        for (size_t k = 0; k < lights && !same; k++)
             made->lights[i * lights + k] =
                 light_of(scene, (int)k, quality, (Vec3){m[12], m[13], m[14]});
         part->interpolation = quality->interpolation;

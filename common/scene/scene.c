@@ -132,6 +132,9 @@ bool scene_check(const Scene *scene, Message *message)
         !check_range("scene", "interpolation", scene->interpolation, 0, INTERPOLATION_CONSTANT,
                      message))
         return false;
+    if (scene->light_count > SCENE_MAX_LIGHTS)
+        return message_set(message, "scene: %d lights: at most %d", scene->light_count,
+                           SCENE_MAX_LIGHTS);
     for (int i = 0; i < scene->light_count; i++)
         if (!check_light(&scene->lights[i], i, message))
             return false;
@@ -295,6 +298,12 @@ void scene_keep_terms(SceneCopy *copy, SceneTerms terms)
                 sides[side]->ambient = sides[side]->diffuse;
         }
     }
+}
+
+void scene_cast_shadows(SceneCopy *copy, bool shadows)
+{
+    for (int i = 0; i < copy->scene.light_count; i++)
+        copy->lights[i].shadows = shadows && i < SCENE_MAX_CASTING;
 }
 
 void scene_place_lights(SceneCopy *copy, const LightPlaces *places)

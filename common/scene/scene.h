@@ -117,6 +117,10 @@ void scene_copy_open(SceneCopy *copy, const Scene *scene);
 bool scene_copy_open_deep(SceneCopy *copy, const Scene *scene, Message *message);
 void scene_copy_close(SceneCopy *copy); /* NULL or a zeroed copy is fine */
 
+/* Lights of a scene at most; of those that cast shadows the first, because a mask has a bit for
+ * each. */
+enum { SCENE_MAX_LIGHTS = 65536, SCENE_MAX_CASTING = 32 };
+
 /* Whether every number is finite and in its range, the camera valid and no direction zero. The
  * message names the parameter: "light 2: cutoff 95: must be 0 to 90". */
 bool scene_check(const Scene *scene, Message *message);
@@ -160,6 +164,9 @@ enum { TERM_AMBIENT = 1, TERM_DIFFUSE = 2, TERM_SPECULAR = 4, TERM_EMISSION = 8,
 
 /* Removes from a copy's lights and materials what the terms leave out. */
 void scene_keep_terms(SceneCopy *copy, SceneTerms terms);
+
+/* Lets a copy's lights cast shadows, as far as they may, or none of them. */
+void scene_cast_shadows(SceneCopy *copy, bool shadows);
 
 /* Lights that were moved. Zeroed: none. */
 enum { SCENE_MAX_PLACED = 8 };

@@ -146,7 +146,6 @@ void scene_file_note(SceneFile *file, bool occurs, const char *text);
 #define NOTE_SPOT "soft edges of spot lights: fitted by an exponent"
 #define NOTE_ORTHOGRAPHIC "orthographic cameras: from far away"
 #define NOTE_INSTANCES "instances of EXT_mesh_gpu_instancing: one of them"
-#define NOTE_LIGHTS "lights but the 32 brightest: left out"
 #define NOTE_METAL "metals with colours at the vertices: as no metals"
 #define NOTE_UNLIT "unlit materials with colours at the vertices: lit"
 #define NOTE_OUTSIDE "files outside its folder: refused"

@@ -133,7 +133,7 @@ void shadow_pairs_find(ShadowPairs *pairs, const Scene *scene)
     pairs->all = 0;
     for (int i = 0; i < pairs->count; i++)
         pairs->receives[i] = pairs->throws[i] = 0;
-    for (int l = 0; l < scene->light_count && pairs->count > 0; l++) {
+    for (int l = 0; l < scene->light_count && l < SCENE_MAX_CASTING && pairs->count > 0; l++) {
         Search search = {pairs, scene, scene_world_light(scene, l), (uint32_t)1 << l, 0};
         /* What is seen from the eye sees a light there. */
         const Vec3 to_eye = vec3_subtract(search.light.position, scene->camera.eye);

@@ -7,7 +7,7 @@
 #include "core/mesh_make.h"
 #include "hard/random_scene.h"
 #include "lighting/lighting.h"
-#include "reference/reference.h"
+#include "reference/picture_error.h"
 #include "support/effects_of.h"
 #include "support/picture_check.h"
 #include "support/testing.h"
@@ -560,7 +560,60 @@ TEST(a_light_that_is_off_adds_nothing_and_compiles_nothing)
 
 /* Limits and failures. */
 
-TEST(the_maximum_of_lights_is_drawn_and_one_more_is_rejected)
+/* Of more lights than a program has, 25 balls get those that reach them by range and cone. */
+TEST(of_many_lights_each_object_gets_those_that_reach_it)
+{
+    enum { SIDE = 5, COUNT = SIDE * SIDE, LIGHTS = 100 };
+    static Light lights[LIGHTS];
+    static Object objects[COUNT];
+    Reference exact;
+    make_world(&RICH);
+    random_state.state = testing_seed(20261127);
+    for (int i = 0; i < COUNT; i++) {
+        const Vec3 at = {2.2 * (i % SIDE) - 4.4, 2.2 * (i / SIDE) - 4.4, 0};
+        objects[i] = world.object;
+        objects[i].mesh = &sphere;
+        objects[i].solid.kind = SOLID_NONE;
+        objects[i].world_from_object = mat4_translate(at);
+    }
+    for (int i = 0; i < LIGHTS; i++) {
+        const double bright = i < 3 ? 0.1 : between(0.1, 0.6);
+        lights[i] = (Light){.kind = i < 3      ? LIGHT_DIRECTIONAL
+                                    : below(2) ? LIGHT_POINT
+                                               : LIGHT_SPOT,
+                            .position = {between(-6, 6), between(-6, 6), between(1, 2)},
+                            .direction = {between(-1, 1), between(-1, 1), i < 3 ? 1 : -1},
+                            .ambient = random_color(i % 5 ? 0 : 0.02),
+                            .diffuse = random_color(bright),
+                            .specular = random_color(bright),
+                            .cutoff = between(20, 70),
+                            .exponent = below(2) * between(1, 9),
+                            .range = i < 3 ? 0 : between(0.5, 2.5)};
+    }
+    world.scene.camera = (Camera){{0, 0, 30}, {0, 0, 0}, {0, 1, 0}, 22, 5, 60, 0};
+    world.scene.lights = lights;
+    world.scene.light_count = LIGHTS;
+    world.scene.objects = objects;
+    world.scene.object_count = COUNT;
+    draw_both();
+    assert_true(pictures_agree("many lights", &specialised, &full, 8));
+    SUCCEEDS(reference_open(
+        &exact, &world.scene,
+        &(ReferenceOptions){.width = SIZE, .height = SIZE, .meshes = true, .centers = true},
+        message));
+    int inside = 0, apart = 0;
+    for (size_t i = 0; i < SIZE * SIZE; i++) {
+        const bool whole = exact.object[i] >= 0 && exact.coverage[i] > 0.999F;
+        inside += whole;
+        /* Half a step is left out, and half is rounded; where a cone ends, the driver rounds. */
+        apart += whole && pixel_error(&specialised, i, &exact.color[3 * i]).largest > 1.1;
+    }
+    reference_close(&exact);
+    assert_true(inside > 500);
+    assert_in_range(apart, 0, 8);
+}
+
+TEST(the_maximum_of_lights_is_drawn_and_one_more_casts_no_shadow)
 {
     Light lights[EFFECTS_MAX_LIGHTS + 1];
     make_world(&RICH);
@@ -574,9 +627,12 @@ TEST(the_maximum_of_lights_is_drawn_and_one_more_is_rejected)
     world.scene.light_count = EFFECTS_MAX_LIGHTS;
     draw_both();
     assert_true(pictures_agree("most lights", &specialised, &full, 8));
-    world.scene.light_count++;
+    world.scene.light_count++; /* the brightest of which are drawn */
+    draw_both();
+    assert_true(pictures_agree("one more", &specialised, &full, 8));
+    lights[EFFECTS_MAX_LIGHTS].shadows = true;
     FAILS(lighting_show(lighting, &(LightingFrame){.scene = &world.scene, .aspect = 1}, message),
-          "scene: 33 lights: at most 32 fit into one program");
+          "scene: light 32: only the first 32 may cast shadows");
 }
 
 TEST(a_broken_shader_is_reported_with_its_line_and_not_counted)

@@ -365,6 +365,42 @@ class Scene(base.Case):
         self.assertEqual(pictures["unlit"], pictures["dull"])
         self.assertNotEqual(pictures["dull"], pictures["none"])
 
+    def hall(self, lamps, side=8, **members):
+        """Tetrahedra in rows, lit by lamps of a table above them, one after the other."""
+        nodes = [{"mesh": 0, "translation": [2 * (i % side), 0, 2 * (i // side)]} for i in range(side * side)]
+        nodes += [{"translation": [2 * (i % side) + 0.7, 1.2, 2 * (i // side % side) + 0.6], "rotation": [-math.sqrt(0.5), 0, 0, math.sqrt(0.5)],
+                   "extensions": {"KHR_lights_punctual": {"light": i}}} for i in range(len(lamps))]
+        return self.save("a.gltf", tetrahedron(nodes=nodes, scenes=[{"nodes": [*range(len(nodes))]}],
+                                               extensions={"KHR_lights_punctual": {"lights": lamps}}, **members))
+
+    def test_each_object_has_the_lights_that_reach_it(self):
+        """A hall with more lamps than a program has, of which few reach an object, and one with as many lamps at each; the exact
+        picture has all of them."""
+        chance = random.Random(SEED)
+        lamps = [{"type": chance.choice(("point", "spot")), "intensity": chance.uniform(1, 4), "range": chance.uniform(1.5, 3),
+                  "color": [chance.random() for _ in range(3)]} for _ in range(64)]
+        name = self.hall(lamps)
+        arguments = (name, "--exposure", "1", "-s", "100x100")
+        said = self.run_it(*arguments, "--error", "1.1", "--verbose", program="Scene").stderr.decode()
+        error = re.search(r"\(plain: ([0-9.]+)\)", said)
+        self.assertLessEqual(float(error.group(1)), 1.1, SEED)  # half a step is left out, and half is rounded
+        said = self.good(*arguments, "--explain", program="Scene").decode()
+        self.assertRegex(said, r"of 64 lights and 64 objects, \d+ times: the object is beyond its range")
+        self.assertIn("32 to 63: more", said)
+        self.assertNotIn("left out\n", said)
+        pictures = [self.drawn(*arguments, *option, program="Scene").pixels for option in ((), ("--full",))]
+        self.assertLessEqual(sum(abs(a - b) > 1 for a, b in zip(*pictures)), 12, SEED)  # at outlines, backs of faces; see below
+        self.good(*arguments[:3], "--save-scene", "b.gltf", program="Scene")
+        self.assertEqual(self.drawn("b.gltf", "-s", "100x100", program="Scene").pixels, pictures[0])
+        said = self.good(*arguments, "--shadows", "on", "--explain", program="Scene").decode()
+        self.assertIn("lights 32 to 63: none, because of a scene's lights the first 32 cast them", said)
+
+    def test_of_too_many_lights_at_one_object_the_brightest_are_drawn(self):
+        name = self.hall([{"type": "point", "intensity": 1 + i % 2} for i in range(40)], side=1)
+        said = self.good(name, "--explain", program="Scene").decode()
+        self.assertIn("of 40 lights and 1 objects, 8 times: lights but the 32 brightest: left out", said)
+        self.assertRegex(said, r"without lights \d.*: lights but the 32 brightest: left out")
+
     def test_of_many_lights_the_brightest_are_drawn(self):
         chance = random.Random(SEED)
         lights = [{"type": "point", "intensity": chance.choice((0, 1e-9))} for _ in range(60)]

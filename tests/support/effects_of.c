@@ -4,15 +4,16 @@
 #include "scene/shadow_pairs.h"
 
 /* Where memory runs out, all lights that have shadows cast them on it. */
-ObjectFacts effects_facts(const Scene *scene, const Object *object)
+static ObjectFacts find_facts(const Scene *scene, const Object *object, SceneFacts *scene_facts)
 {
     const MeshBox box = mesh_bounds(object->mesh);
     const NormalCone normals = effects_normal_cone(object->mesh);
     const EffectsPlace place = effects_place(object, &box, &normals);
-    const SceneFacts facts = effects_scene(scene);
     ShadowPairs pairs = {.count = 0};
-    EffectsView view;
-    uint32_t shadowed = effects_shadows(&facts);
+    EffectsView view = {.scene = NULL};
+    EffectsLights chosen;
+    effects_view(&view, scene);
+    uint32_t shadowed = view.shadows;
     if (shadowed && shadow_pairs_open(&pairs, scene->object_count, NULL)) {
         for (int i = 0; i < scene->object_count; i++) {
             pairs.boxes[i] = mesh_bounds(scene->objects[i].mesh);
@@ -22,27 +23,36 @@ ObjectFacts effects_facts(const Scene *scene, const Object *object)
         shadowed = pairs.receives[object - scene->objects];
     }
     shadow_pairs_close(&pairs);
-    effects_view(&view, scene);
-    return effects_object(&view, object, &place, shadowed);
+    const EffectsLights *lights = effects_lights(&view, object, &place, &chosen, NULL);
+    const ObjectFacts facts = effects_object(&view, lights, object, &place, shadowed);
+    *scene_facts = effects_scene(&view, lights);
+    effects_view_close(&view);
+    return facts;
+}
+
+ObjectFacts effects_facts(const Scene *scene, const Object *object)
+{
+    SceneFacts facts;
+    return find_facts(scene, object, &facts);
 }
 
 Effects effects_of(const Scene *scene, const Object *object)
 {
-    const SceneFacts facts = effects_scene(scene);
-    const ObjectFacts own = effects_facts(scene, object);
+    SceneFacts facts;
+    const ObjectFacts own = find_facts(scene, object, &facts);
     return effects_decide(&facts, &own, NULL);
 }
 
 Effects effects_full(const Scene *scene, const Object *object)
 {
-    const SceneFacts facts = effects_scene(scene);
-    const ObjectFacts own = effects_facts(scene, object);
+    SceneFacts facts;
+    const ObjectFacts own = find_facts(scene, object, &facts);
     return effects_decide_full(&facts, &own);
 }
 
 void effects_explain(const Scene *scene, const Object *object, FILE *file)
 {
-    const SceneFacts facts = effects_scene(scene);
-    const ObjectFacts own = effects_facts(scene, object);
+    SceneFacts facts;
+    const ObjectFacts own = find_facts(scene, object, &facts);
     effects_decide(&facts, &own, file);
 }
