@@ -33,7 +33,10 @@ class Regression(base.Case):
             page = self.read("report/index.html").decode() if moved else ""
             for line in moved:
                 self.assertIn(line.partition(": ")[2], page)
-                self.assertTrue(self.png(f"report/{line.partition(':')[0]}-difference.png").pixels)
+                name = line.partition(":")[0]
+                self.assertTrue(self.png(f"report/{name}-difference.png").pixels)
+                # Both over each other, and what moves their border.
+                self.assertRegex(page, rf'"{name}-now[.]png".*class="before" src="{name}-before[.]png".*\n<input type="range"[^>]*{name}:.*clipPath')
 
     def test_a_mistake_is_named_with_its_line(self):
         self.gallery(*NAMES[1:], "-o", "before", "--keep-shaders")
