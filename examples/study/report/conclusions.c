@@ -261,6 +261,7 @@ Conclusions conclusions_of(const Results *results, const int *scenes, int count,
     Conclusions to = {.count = 0};
     const int shiny = study_scene_number("shiny32");
     const double noise = front_noise(results, NULL);
+    const char *driver = results->count > 0 ? results->rows[0].renderer : "no driver";
     int busy = 0, shown = count > 0 ? scenes[0] : 0;
     char text[CONCLUSION_SIZE];
     for (int i = 0; i < count; i++)
@@ -271,11 +272,11 @@ Conclusions conclusions_of(const Results *results, const int *scenes, int count,
     const char *scene = STUDY_SCENES[shown].name;
     if (busy)
         add(&to,
-            "the machine was busy in %d of %d scenes: half the times there have a noise of more than "
-            "%.0f%%; they are not compared; measure again with --fresh",
-            busy, count, 100 * FRONT_NOISE_BOUND);
+            "%s: the machine was busy in %d of %d scenes: half the times there have a noise of more "
+            "than %.0f%%; they are not compared; measure again with --fresh",
+            driver, busy, count, 100 * FRONT_NOISE_BOUND);
     else
-        add(&to, "%d scene%s; half the times have a noise of at most %.0f%%", count,
+        add(&to, "%s: %d scene%s; half the times have a noise of at most %.0f%%", driver, count,
             count == 1 ? "" : "s", ceil(100 * noise));
     conclusion_of_scene(results, scene, text);
     if (text[0])

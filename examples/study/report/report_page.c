@@ -95,8 +95,8 @@ static void set_findings(TemplateValues *page, const Conclusions *conclusions, c
         {"shadows-teapot-time",
          "The time of a teapot's and a torus' shadows by the size of the map"},
     };
-    if (conclusions->busy)
-        template_set(template_add(page, "banner"), "text", "%s", conclusions->lines[0]);
+    template_set(page, "measured", "%s", conclusions->lines[0]);
+    template_set(page, "kind", "%s", conclusions->busy ? "busy" : "measured");
     for (int i = 0; i < conclusions->glance_count; i++)
         set_glance(page, &conclusions->glances[i], folder);
     for (int i = 0; i < conclusions->count; i++)
