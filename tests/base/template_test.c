@@ -116,7 +116,7 @@ FOLDER_TEST(a_file_is_written_whole_or_not_at_all)
     assert_int_equal(access("empty.html", F_OK), 0);
     template_add(values, "picture");
     assert_false(template_write(gallery, values, "out.html", &message));
-    assert_non_null(strstr(message.text, "gallery.html:22: {{name}}: has no value here"));
+    assert_non_null(strstr(message.text, "gallery.html:21: {{name}}: has no value here"));
     assert_int_not_equal(access("out.html", F_OK), 0);
     template_close(values);
 }

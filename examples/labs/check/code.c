@@ -42,13 +42,12 @@ static void limit(rlim_t seconds, rlim_t memory)
 static _Noreturn void compile(const Lab *lab, const char *folder, const char *labs,
                               const char *common, int errors)
 {
-    char include[3][PATH_MAX + 8], matrix[3][PATH_MAX + 32];
+    char include[3][PATH_MAX + 8], matrix[2][PATH_MAX + 32];
     snprintf(include[0], sizeof include[0], "-I%s", labs);
     snprintf(include[1], sizeof include[1], "-I%s", common);
     snprintf(include[2], sizeof include[2], "-I%s/core", common);
-    for (int i = 0; i < 3; i++)
-        snprintf(matrix[i], sizeof matrix[i], "%s/core/matrix%s.c", common,
-                 (const char *[]){"", "_inverse", "_vectors"}[i]);
+    for (int i = 0; i < 2; i++)
+        snprintf(matrix[i], sizeof matrix[i], "%s/core/matrix%s.c", common, i ? "_vectors" : "");
     limit(BUILD_SECONDS, BUILD_MEMORY);
     process_null(STDIN_FILENO, STDOUT_FILENO);
     dup2(errors, STDERR_FILENO);
@@ -58,7 +57,7 @@ static _Noreturn void compile(const Lab *lab, const char *folder, const char *la
     if (chdir(folder) == 0)
         execlp("cc", "cc", "-std=gnu11", "-O0", "-fPIC", "-shared", "-Wall",
                "-Werror=implicit-function-declaration", include[0], include[1], include[2], "-o",
-               "module.so", lab->code, matrix[0], matrix[1], matrix[2], "-lm", (char *)NULL);
+               "module.so", lab->code, matrix[0], matrix[1], "-lm", (char *)NULL);
     _exit(127);
 }
 
