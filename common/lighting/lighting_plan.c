@@ -254,11 +254,12 @@ bool lighting_plan_reach(const LightingPlan *plan, int object, uint8_t *why)
 {
     const Scene *parts = plan->frame.parts;
     EffectsLights chosen;
-    EffectsView view = {.any_normals = plan->view.any_normals};
-    effects_view(&view, parts ? &parts[object] : plan->frame.scene);
-    const bool chooses = effects_lights(&view, object_of(&plan->frame, object),
+    EffectsView own = {.any_normals = plan->view.any_normals};
+    if (parts)
+        effects_view(&own, &parts[object]);
+    const bool chooses = effects_lights(parts ? &own : &plan->view, object_of(&plan->frame, object),
                                         &plan->objects[object].place, &chosen, why) == &chosen;
-    effects_view_close(&view);
+    effects_view_close(&own);
     return chooses;
 }
 

@@ -11,8 +11,9 @@ import book
 QUIET = re.compile(r"^```.*?^```|\$\$.*?\$\$|`[^`]*`|\]\([^)]*\)|<!--.*?-->|\{#[^}]*\}", re.DOTALL | re.MULTILINE)
 NAMES = re.compile(r"\b(?:[Cc]hapter|[Ll]ab|[Ff]igure|[Ss]ection)\s+\d+(?:\.\d+)*|^#+ \d+\.(?= )|\bin (?:19|20)\d\d\b|"
                    r"\b(?:OpenGL(?: ES)?|WebGL|GLSL(?: ES)?|IEEE)\s+\d+(?:\.\d+)?|\b\d+-bit\b", re.MULTILINE)
-COUNTED = ("step", "pixel", "degree", "percent", "%", "time", "bit", "byte", "digit", "operation", "vert", "corner", "face", "triangle",
-           "division", "slice", "stack", "texel", "sample", "frame", "ms", "second", "unit", "lamp", "light", "colour", "material", "scene")
+MEASURED = ("step", "pixel", "degree", "percent", "times", "bit", "byte", "digit", "operation", "second", "sample", "division", "units", "unit apart")
+COUNTED = (*MEASURED, "%", "time", "vert", "corner", "face", "triangle", "slice", "stack", "texel", "frame", "ms", "unit", "lamp", "light",
+           "colour", "material", "scene")
 SCALE = re.compile(rf"\b1/255\b|\bof\s+255\b|(?<![\d.,/])(?:0|1|255)\b(?![./]\d|\s*(?:{'|'.join(COUNTED)}))")
 NUMBER = re.compile(r"\d+(?:\.\d+)?")
 QUESTION = re.compile(r"^.*`([^`]+)`\n+:   ", re.MULTILINE)
@@ -21,8 +22,7 @@ FEW = re.compile(r"\d \\times \d|[_^](?:\d|\{[^}]*\})|(?<![\d.])[012](?![\d.])")
 # Numbers as words, of what is measured: of other things, a face's corners or a model's parts, the sentence itself says them.
 WORDS = {word: number for number, word in enumerate("two three four five six seven eight nine ten eleven twelve".split(), 2)}
 WORDS.update(half=0.5, dozen=12, twenty=20, thirty=30, forty=40, fifty=50, hundred=100, million=10**6)
-MEASURED = "steps?|pixels?|degrees?|percent|times|bits?|bytes?|digits?|operations?|seconds?|samples?|divisions?|units|unit apart"
-WORD = re.compile(rf"\b({'|'.join(WORDS)})(?: million| an?| the)? (?:{MEASURED})\b", re.IGNORECASE)
+WORD = re.compile(rf"\b({'|'.join(WORDS)})(?: million| an?| the)? (?:{'|'.join(MEASURED)})s?\b", re.IGNORECASE)
 
 
 def equation(formula):
