@@ -299,7 +299,7 @@ static bool write_glances(Survey *survey, const Conclusions *conclusions, const 
         char path[PATH_MAX];
         if (!glance->setting)
             continue;
-        glance_path(glance, folder, path);
+        glance_path(glance->file, folder, path);
         done = quality_parse(&quality, glance->setting, message) &&
                open_subject(&subject, survey, glance->scene, message);
         if (done) {

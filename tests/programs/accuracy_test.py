@@ -96,12 +96,14 @@ class Surveys(Study):
         self.assertRegex(text, r"^llvmpipe.*: 1 scene; half the times")
         self.assertRegex(text, r"\ncube: 0\.5 steps: Phong interpolation [\d.]+ ms, Gouraud [\d.]+ ms")
         self.assertRegex(text, r"\nmediump +[# ]{7}\|[# ]{7} [a-z:, ]+ \(time x [\d.]+; error \+0\.\d steps, cube\)\n")
-        self.assertRegex(text, r"\n4 samples .* rms of all \d\.\d+, was \d\.\d+, cube\)\n")
+        self.assertRegex(text, r"\n4 samples .* rms error \d+\.\d to \d+\.\d, cube\)\n")
         page = self.read("accuracy/index.html").decode()
         for name, verdict, time in re.findall(r"\n([\w ]+?) +[# ]{7}\|[# ]{7} (.*?) \((time x [^;]*); ", text):
             self.assertIn(f"<p><b>{name}</b>: {verdict}</p>", page)
-            self.assertIn(f"<p>{time}; ", page)
-        self.assertEqual(self.png("accuracy/glance-mediump.png").width, 2 * 240 + 8)
+            self.assertIn(f"<p>{time}<br>", page)
+        for name in "mediump", "shadows":
+            self.assertIn(f'<img src="glance-{name}.png" ', page)
+            self.assertEqual(self.png(f"accuracy/glance-{name}.png").width, 2 * 240 + 8)
         self.assertRegex(text, r"\nBlinn-Phong: \d+ to \d+ steps .*\naccuracy/index\.html: .*table\.txt.*\n$")
         rows = self.rows()
         self.assertEqual(len(rows), 15)
@@ -124,6 +126,79 @@ class Surveys(Study):
                      "finding-shadows-sphere.png", "finding-shadows-sphere.svg",
                      "finding-shadows-sphere-time.png", "finding-shadows-sphere-time.svg"):
             self.assertGreater(len(self.read("accuracy/" + name)), 500)
+
+    def on_screen(self, columns, **environment):
+        """The first screen on a terminal: rows of characters, each with its two colours, and the text alone. Without
+        gnuplot, which would take half of the time."""
+        clean = {name: value for name, value in os.environ.items() if name not in ("NO_COLOR", "COLORTERM")}
+        code, said = base.on_terminal(
+            [os.path.join(base.EXAMPLES, "accuracy"), "--scene", "cube", *QUICK], "stdout", columns, cwd=self.folder,
+            env={**clean, **self.own, "PATH": "", "TERM": "xterm", **environment})
+        self.assertEqual(code, 0, said)
+        rows, colors = [[]], {}
+        for escape, character in re.findall(r"\x1b\[([\d;]+)m|([^\x1b\r])", said):
+            codes = [int(code) for code in escape.split(";") if code]
+            if codes == [0]:
+                colors = {}
+            elif codes and codes[0] in (38, 48):
+                colors = {**colors, codes[0]: codes[1:]}
+            elif character == "\n":
+                rows.append([])
+            elif character:
+                rows[-1].append((character, colors.get(38), colors.get(48)))
+        return rows, "\n".join("".join(cell[0] for cell in row) for row in rows), said
+
+    def cells(self, rows, text, across):
+        """The pixels of each picture on the screen, by the name of its file."""
+        lines = text.split("\n")
+        top = next(number for number, line in enumerate(lines) if "\u2580" in line)
+        for cell in range(6):
+            first, left = top + 5 * (cell // across), 40 * (cell % across)
+            name = lines[first][left + 10:left + 28].strip().lower()
+            file = [file for file in ("mediump", "gouraud", "samples", "viewer", "guards", "shadows") if file in name]
+            halves = [[spot[half] for spot in rows[first + line][left:left + 9]] for line in range(5) for half in (1, 2)]
+            self.assertEqual(halves.pop(), 9 * [None], name)  # the gap below
+            yield file[0], halves
+
+    def test_a_terminal_shows_the_pages_pictures(self):
+        """Each pixel has the lightest colour of the part of the page's picture that it stands for: in 24 bits that colour;
+        of the 256, one of a cube whose values are at most 95 apart, so that rounding is off by 48 at most."""
+        def lightness(color):
+            return 2 * color[0] + 7 * color[1] + color[2]
+
+        def color_of(codes):
+            if codes[0] == 2:
+                return codes[1:]
+            if codes[1] >= 232:
+                return 3 * [8 + 10 * (codes[1] - 232)]
+            return [(0, 95, 135, 175, 215, 255)[(codes[1] - 16) // place % 6] for place in (36, 6, 1)]
+
+        self.survey()
+        for across, off, more in (2, 0, {"COLORTERM": "truecolor"}), (3, 48, {}):
+            rows, text, _ = self.on_screen(40 * across, **more)
+            self.assertLessEqual(max(len(line) for line in text.split("\n")), 40 * across)
+            self.assertLessEqual(text.count("\n"), 24)
+            shown = dict(self.cells(rows, text, across))
+            self.assertEqual(len(shown), 6)
+            self.assertGreater(len({str(pixel) for row in shown["mediump"] for pixel in row}), 3)
+            for name, pixels in shown.items():
+                page = self.png(f"accuracy/glance-{name}.png")
+                for at in range(81):
+                    spots = [(y * page.width + 248 + x) * page.channels for y in range(at // 9 * 240 // 9, (at // 9 + 1) * 240 // 9)
+                             for x in range(at % 9 * 240 // 9, (at % 9 + 1) * 240 // 9)]
+                    part = [page.pixels[spot:spot + 3] for spot in spots]
+                    most = max(map(lightness, part))
+                    found = color_of(pixels[at // 9][at % 9])
+                    self.assertTrue(any(lightness(color) == most and max(abs(a - b) for a, b in zip(color, found)) <= off
+                                        for color in part), (name, at, found))
+
+    def test_pictures_are_for_terminals_with_colours_and_room(self):
+        printed = self.survey()
+        self.assertNotIn("\u2580", printed)
+        for columns, more in ((80, {"NO_COLOR": "1"}), (59, {}), (80, {"TERM": "dumb"}))[:3 if base.LONG else 2]:
+            _, text, said = self.on_screen(columns, **more)
+            self.assertNotIn("\x1b", said)
+            self.assertEqual([line[:34] for line in text.split("\n")][1:6], [line[:34] for line in printed.split("\n")][1:6])
 
     def test_a_scene_of_your_own_is_surveyed(self):
         self.good("--save-scene", "own.gltf", program="SpotLight")

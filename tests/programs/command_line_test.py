@@ -8,6 +8,7 @@ command line. A failing program writes one line and no file, and changes none. E
 77 without a driver.
 """
 import array
+import fcntl
 import functools
 import glob
 import itertools
@@ -24,6 +25,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import termios
 import threading
 import time
 import unittest
@@ -83,10 +85,12 @@ def terminal():
         raise unittest.SkipTest("this machine has no pseudo-terminals; mount /dev/pts") from error
 
 
-def on_terminal(command, **more):
-    """The status, and what a command writes to a terminal that is its standard error."""
+def on_terminal(command, stream="stderr", columns=0, **more):
+    """The status, and what a command writes to a terminal that is its standard error or output."""
     ours, theirs = terminal()
-    process = subprocess.Popen(command, stderr=theirs, stdout=subprocess.DEVNULL, **more)
+    fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("4H", 24 if columns else 0, columns, 0, 0))
+    process = subprocess.Popen(command, **{"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL,
+                                           stream: theirs, **more})
     os.close(theirs)
     said = b""
     try:
@@ -619,12 +623,8 @@ class Terminal(Case):
     def test_verdicts_are_in_colour(self):
         for folder, verdict in (("examples/labs/lab01_diffuse", "\x1b[31mwrong\x1b[0m, "),
                                 ("shaders/labs/solutions/lab01_diffuse", "\x1b[32mright\x1b[0m, ")):
-            ours, theirs = terminal()
-            subprocess.run([os.path.join(EXAMPLES, "check"), "1", os.path.join(SOURCE, folder)],
-                           stdout=theirs, cwd=self.folder, env={**os.environ, "TERM": "xterm"})
-            os.close(theirs)
-            said = os.read(ours, 65536).decode()
-            os.close(ours)
+            _, said = on_terminal([os.path.join(EXAMPLES, "check"), "1", os.path.join(SOURCE, folder)], "stdout",
+                                  cwd=self.folder, env={**os.environ, "TERM": "xterm"})
             self.assertTrue(said.startswith("lab01_diffuse: " + verdict), said)
 
 

@@ -91,9 +91,9 @@ double glance_bar(double ratio)
     return isnan(ratio) ? 0 : fmin(fmax(log2(ratio) / 2, -1), 1);
 }
 
-void glance_path(const Glance *glance, const char *folder, char path[PATH_MAX])
+void glance_path(const char *file, const char *folder, char path[PATH_MAX])
 {
-    snprintf(path, PATH_MAX, "%s/glance-%s.png", folder, glance->file);
+    snprintf(path, PATH_MAX, "%s/glance-%s.png", folder, file);
 }
 
 /* Errors of less than this are not to be seen in any picture, and those of less than SEEN hardly.
@@ -105,10 +105,10 @@ static const char *verdict_of(int slower, double more)
 {
     const int worse = (more >= EXACT) - (more <= -EXACT);
     static const char *const words[3][3] = {
-        {"faster and more exact", "saves time, for nothing", "buys time with accuracy"},
-        {"more exact, for nothing", "changes nothing", "saves nothing, costs accuracy"},
-        {"buys accuracy with time", "costs time, for nothing", "worse in both: leave it"}};
-    return worse > 0 && more < SEEN && slower < 0 ? "saves time, hardly to be seen"
+        {"faster and more exact", "faster, as exact", "faster, less exact"},
+        {"more exact, as fast", "changes nothing", "less exact, saves nothing"},
+        {"slower, more exact", "slower, gains nothing", "slower and less exact: avoid"}};
+    return worse > 0 && more < SEEN && slower < 0 ? "faster, hardly less exact"
                                                   : words[slower + 1][worse + 1];
 }
 
@@ -121,7 +121,7 @@ static void judge(Glance *glance, double *ratios, int count, int slower)
         snprintf(glance->time, GLANCE_TEXT, "time: too noisy to tell");
         snprintf(glance->verdict, GLANCE_TEXT, "%s",
                  fabs(glance->more) < EXACT ? "as exact"
-                 : glance->more > 0         ? "costs accuracy"
+                 : glance->more > 0         ? "less exact"
                                             : "more exact");
         return;
     }
@@ -172,9 +172,10 @@ static void add_glance(Conclusions *to, const Glance *row, const Results *result
     if (isnan(from))
         return;
     if (edges)
-        snprintf(glance.error, GLANCE_TEXT, "rms of all %.2f, was %.2f", from + glance.more, from);
+        snprintf(glance.error, GLANCE_TEXT, "rms error %.1f to %.1f", from, from + glance.more);
     else
-        snprintf(glance.error, GLANCE_TEXT, "error %+.1f steps", glance.more);
+        snprintf(glance.error, GLANCE_TEXT, "error %+.*f steps", fabs(glance.more) < 9.95,
+                 glance.more);
     const size_t used = strlen(glance.error);
     snprintf(glance.error + used, GLANCE_TEXT - used, ", %s", STUDY_SCENES[glance.scene].name);
     judge(&glance, ratios, 2 * timed < measured ? 0 : timed, slower); /* else few speak for all */
@@ -196,7 +197,7 @@ static void add_shadows(Conclusions *to, const ShadowWays *ways)
                        .least = map.still.lower,
                        .most = map.still.upper,
                        .more = map.error - volumes.error};
-    snprintf(glance->error, GLANCE_TEXT, "%.1f steps at edges, volumes %.1f", map.error,
+    snprintf(glance->error, GLANCE_TEXT, "error %.1f steps, volumes %.1f", map.error,
              volumes.error);
     const bool apart =
         map.still.upper < volumes.still.lower || volumes.still.upper < map.still.lower;
@@ -212,36 +213,8 @@ static void add_shadows(Conclusions *to, const ShadowWays *ways)
              : !apart                                ? "as fast as volumes, "
              : map.still.ratio < volumes.still.ratio ? "faster than volumes, "
                                                      : "slower than volumes, ",
-             glance->more < EXACT ? "as exact" : "less exact");
+             glance->more < EXACT ? "as exact" : "coarser");
     to->glance_count++;
-}
-
-/* Seven places to the left of | for what is faster and as many to its right for what is slower. */
-static void put_bar(double ratio, char bar[16])
-{
-    enum { HALF = 7 };
-    memset(bar, ' ', 2 * HALF + 1);
-    bar[HALF] = '|';
-    bar[2 * HALF + 1] = '\0';
-    const int length = (int)lround(HALF * glance_bar(ratio));
-    for (int i = length < 0 ? length : 1; i <= (length < 0 ? -1 : length); i++)
-        bar[HALF + i] = '#';
-}
-
-void conclusions_print(const Conclusions *conclusions, const char *folder, FILE *file)
-{
-    for (int i = 0; i < conclusions->count; i++) {
-        fprintf(file, "%s\n", conclusions->lines[i]);
-        for (int k = 0; i == 0 && k < conclusions->glance_count; k++) {
-            const Glance *glance = &conclusions->glances[k];
-            char bar[16];
-            put_bar(glance->ratio, bar);
-            fprintf(file, "%-18s %s %s (%s; %s)\n", glance->name, bar, glance->verdict,
-                    glance->time, glance->error);
-        }
-    }
-    fprintf(file, "%s/index.html: plots and tables; all tables: table.txt; --verbose prints them\n",
-            folder);
 }
 
 static void add_matrices(Conclusions *to, const Results *results)
@@ -250,8 +223,7 @@ static void add_matrices(Conclusions *to, const Results *results)
     const ResultRow *floats = results_of(results, "far", "matrices=float");
     const ResultRow *lecture = results_of(results, "far", "matrices=float order=lecture");
     if (usual && floats && lecture)
-        add(to,
-            "matrices (far): error %.2f steps in double, %.0f in float, %.0f in the lecture's order",
+        add(to, "matrices (far): %.2f steps in double, %.0f in float, %.0f in the lecture's order",
             usual->interior_maximum, floats->interior_maximum, lecture->interior_maximum);
 }
 
@@ -285,9 +257,7 @@ Conclusions conclusions_of(const Results *results, const int *scenes, int count,
         add_glance(&to, &GLANCE_ROWS[i], results, scenes, count);
     add_shadows(&to, ways);
     add_matrices(&to, results);
-    add(&to,
-        "Blinn-Phong: %.0f to %.0f steps from Phong with the same exponent, %.0f to %.0f with "
-        "the fitted one",
+    add(&to, "Blinn-Phong: %.0f to %.0f steps from Phong, %.0f to %.0f with a fitted exponent",
         apart->same[0], apart->same[1], apart->fitted[0], apart->fitted[1]);
     return to;
 }

@@ -47,11 +47,12 @@ struct ShadowWays;
 Conclusions conclusions_of(const Results *results, const int *scenes, int count,
                            const ModelsApart *apart, const struct ShadowWays *ways);
 
-/* The first line, the rows, the other lines, and where the page is. */
+/* The first line, the rows, the other lines, and where the page is. On a terminal with colours the
+ * rows are cells, each with the difference of its picture in the folder. */
 void conclusions_print(const Conclusions *conclusions, const char *folder, FILE *file);
 
-/* FOLDER/NAME.png, the picture of a row. */
-void glance_path(const Glance *glance, const char *folder, char path[PATH_MAX]);
+/* FOLDER/glance-FILE.png, the picture of a row. */
+void glance_path(const char *file, const char *folder, char path[PATH_MAX]);
 
 /* Into the folder, as FOLDER/finding-NAME.svg and .png:
  *   interpolation  Gouraud's and Phong's error over time as divisions grow

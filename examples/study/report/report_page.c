@@ -73,11 +73,9 @@ static void set_glance(TemplateValues *page, const Glance *glance, const char *f
         template_set(drawn, "width", "%.1f", fabs(bar));
         template_set(drawn, "kind", "%s", bar < 0 ? "faster" : "slower");
     }
-    glance_path(glance, folder, path);
+    glance_path(glance->file, folder, path);
     if (access(path, R_OK) == 0)
         template_set(values, "picture", "glance-%s.png", glance->file);
-    else if (!glance->setting && has_plot(folder, "finding-shadows-sphere"))
-        template_set(values, "picture", "finding-shadows-sphere.svg");
 }
 
 static void set_findings(TemplateValues *page, const Conclusions *conclusions, const char *folder)

@@ -11,11 +11,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ROUNDS = 9, QUICK_ROUNDS = 3, QUICK_STEP = 3, QUICK_KINDS = 2, NEAR = 2 };
+enum { ROUNDS = 9, QUICK_ROUNDS = 3, QUICK_STEP = 3, QUICK_KINDS = 2, FILTERED = 1, NEAR = 2 };
 
 static const int SIZES[SHADOW_MAP_SIZES] = {64, 128, 256, 512, 1024, 2048, 4096};
 
-/* Of maps; the first two are measured in a quick survey, too. */
+/* Of maps; the first two are measured in a quick survey, too, the second is FILTERED. */
 static const struct {
     const char *name;
     int smooth;
@@ -198,6 +198,25 @@ static bool measure_way(Survey *survey, Subject *subject, const ShadowSettings *
     return measure_times(survey, subject, measured, message);
 }
 
+/* The picture of the first screen: by the map that it names. */
+static bool draw_best(Survey *survey, Subject *subject, const ShadowWays *ways, int number,
+                      Message *message)
+{
+    ShadowMeasured volumes, map;
+    ShadowSettings settings = SHADOWS_DEFAULT;
+    char path[PATH_MAX];
+    double wall, gpu;
+    if (number != 0 || !shadow_ways_best(ways, number, &volumes, &map, &settings.map_size))
+        return true;
+    settings.way = SHADOWS_MAP;
+    settings.smooth = KINDS[FILTERED].smooth;
+    settings.bias = KINDS[FILTERED].bias;
+    lighting_use_shadows(subject->with.lighting, &settings);
+    glance_path("shadows", survey->folder, path);
+    return setting_picture_frame(&subject->with, survey->renderer, &wall, &gpu, message) &&
+           report_pair(&subject->with.image, &subject->exact, path, message);
+}
+
 static bool measure_scene(Survey *survey, int number, ShadowWays *ways, Message *message)
 {
     const int step = survey->plan.quick ? QUICK_STEP : 1;
@@ -218,6 +237,7 @@ static bool measure_scene(Survey *survey, int number, ShadowWays *ways, Message 
                                message);
         }
     }
+    done = done && draw_best(survey, subject, ways, number, message);
     if (subject->with.lighting)
         lighting_use_shadows(subject->with.lighting, &SHADOWS_DEFAULT);
     close_subject(survey, subject);
@@ -360,7 +380,6 @@ bool shadow_ways_plot(const ShadowWays *ways, const char *folder, Message *messa
 bool shadow_ways_best(const ShadowWays *ways, int scene, ShadowMeasured *volumes,
                       ShadowMeasured *map, int *size)
 {
-    enum { FILTERED = 1 }; /* of KINDS */
     static const double NEAR_ENOUGH = 8;
     const ShadowMeasured *best = NULL;
     for (int i = 0; i < SHADOW_MAP_SIZES; i++) {
