@@ -159,13 +159,16 @@ static void find_surfaces(const ShadowFrame *frame)
     }
 }
 
-/* A closed mesh may leave out half of its triangles: see SilhouetteFacing. */
+/* A closed mesh may leave out half of its triangles: see SilhouetteFacing. A light that touches the
+ * mesh (silhouette.c) may be a rounding outside of its box, and is not outside of it. */
 static SilhouetteFacing facing_of(const LightingPlan *plan, int number, bool closed, Vec4 light)
 {
     const MeshBox *box = &plan->pairs.boxes[number];
-    const bool outside = light.w == 0 || light.x < box->low.x || light.x > box->high.x ||
-                         light.y < box->low.y || light.y > box->high.y || light.z < box->low.z ||
-                         light.z > box->high.z;
+    const double touching = ldexp(vec3_length(vec3_subtract(box->high, box->low)), -20);
+    const bool outside = light.w == 0 || light.x < box->low.x - touching ||
+                         light.x > box->high.x + touching || light.y < box->low.y - touching ||
+                         light.y > box->high.y + touching || light.z < box->low.z - touching ||
+                         light.z > box->high.z + touching;
     if (!closed)
         return SILHOUETTE_ALL;
     if (plan->objects[number].convex)

@@ -295,6 +295,34 @@ TEST_WITH(0, lights_may_touch_what_throws_the_shadow, open_meshes, close_meshes)
     assert_true(all);
 }
 
+/* Of all vertices the farthest along an axis, one way or the other. */
+static Vec3 end_of(const Mesh *mesh, int axis, bool low)
+{
+    const float *end = mesh->vertices[0].position;
+    for (size_t i = 1; i < mesh->vertex_count; i++) {
+        const float *place = mesh->vertices[i].position;
+        if (low ? place[axis] < end[axis] : place[axis] > end[axis])
+            end = place;
+    }
+    return vec3_from_float(end);
+}
+
+/* Rounding decides whether such a light is within the mesh's box. */
+TEST_WITH(0, lights_may_touch_an_end_of_what_throws_the_shadow, open_meshes, close_meshes)
+{
+    bool all = true;
+    for (int i = 0; i < 12; i++) {
+        char name[64];
+        make_world(&coarse_ring);
+        turn_first(mat4_rotate(23 * i, (Vec3){1, 0.3, 0.2}));
+        world.lights[0].position = mat4_transform_point(world.objects[0].world_from_object,
+                                                        end_of(&coarse_ring, i % 3, i % 2));
+        snprintf(name, sizeof name, "light at an end of the coarse ring, %d", i);
+        all &= check_wrong(name, &world.scene, 100);
+    }
+    assert_true(all);
+}
+
 /* In front of a triangle or behind it, so near that it fills almost half of all directions: its
  * shadow is as large as that. Nearer than a few roundings of a float, 1e-6, which side it is on is
  * not known. */
