@@ -734,6 +734,12 @@ class Results(Class):
         refused("part 2 of 3 is missing; judge that", "part1", "part3")
         refused("part 1 of 3 is there twice: part1 and part1", "part1", "part1", "part2", "part3")
         refused("part1 and whole were not judged alike: parts is 3 and 0", "part1", "whole")
+        # Who came between the parts would be in none.
+        self.submit("late")
+        self.lab5("--part", "2/3", out="more")
+        refused(f'part1 and more were not judged alike: class is "{count} submissions, .*" and '
+                f'"{count + 1} submissions, ', "part1", "more", "part3")
+        shutil.rmtree(self.path("class/late"))
         lost = os.listdir(self.path(f"{judged[0]}/students"))[0]
         os.remove(self.path(f"{judged[0]}/students/{lost}/result.json"))
         refused(f"{judged[0]}: without a result: {lost}; judge that", *parts)
