@@ -105,11 +105,12 @@ static const char *egl_remedy(char remedy[REMEDY_SIZE])
     return "install the packages libegl1 libegl-mesa0 libgl1-mesa-dri";
 }
 
-/* Mesa's LLVM alone is 120 MB; without memory Mesa is not loaded, says so in many lines, or
- * crashes. */
+/* Mesa's LLVM alone is 120 MB, and each thread takes 72 MB of addresses; without memory Mesa is not
+ * loaded, says so in many lines, or crashes, and with two processors so do a few pictures with 800
+ * MB. */
 static bool egl_has_memory(Message *message)
 {
-    enum { LEAST = 512 }; /* MB */
+    enum { LEAST = 1024 }; /* MB */
     struct rlimit limit;
     return getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur >> 20 >= LEAST ||
            message_set(message, "EGL: the limit of memory is %d MB (ulimit -v): raise it to %d",

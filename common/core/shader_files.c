@@ -139,7 +139,7 @@ static bool was_read(const ShaderFiles *files, const char *folder, const char *n
 }
 
 /* Of a stage's file that was looked for and was not there: another of that stage beside it that
- * was probably meant to be it. */
+ * was probably meant to be it, as LightedCube.frag.txt. */
 static void find_misnamed(const ShaderFiles *files, const char *folder, const char *path,
                           Message *message)
 {
@@ -148,8 +148,8 @@ static void find_misnamed(const ShaderFiles *files, const char *folder, const ch
     snprintf(beside, sizeof beside, "%.*s", (int)(name - 1 - path), path);
     DIR *entries = opendir(beside);
     for (struct dirent *entry; entries && (entry = readdir(entries));) {
-        const char *const there[] = {entry->d_name, NULL}, *dot = strrchr(entry->d_name, '.');
-        if (dot && strcmp(dot, ending) == 0 && !was_read(files, folder, entry->d_name) &&
+        const char *const there[] = {entry->d_name, NULL};
+        if (strcasestr(entry->d_name, ending) && !was_read(files, folder, entry->d_name) &&
             text_nearest(name, there))
             message_add(message, "%s%s/%s: ignored: the file looked for is %s",
                         message->text[0] ? "\n" : "", beside, entry->d_name, name);

@@ -101,10 +101,17 @@ const char *replacement_for(const Parser *parser, const char *name)
 {
 #define DERIVATIVES "write #extension GL_OES_standard_derivatives : enable first"
 #define SHADOW "take a sampler2D, and compare the depth that texture2D returns with the point's own"
+#define TEXTURE "write texture2D(sampler, point)"
+#define UNIFORM "compute it in the program, and pass it as a uniform"
+#define EXP "write it with exp"
     static const char *const WORDS[][2] = {
-        {"inverse", "compute the inverse in the program, and pass it as a uniform"},
+        {"inverse", UNIFORM},
+        {"determinant", UNIFORM},
         {"transpose", "write vector * matrix instead of transpose(matrix) * vector"},
-        {"texture", "write texture2D(sampler, point)"},
+        {"texture", TEXTURE},
+        {"textureLod", TEXTURE},
+        {"texelFetch", TEXTURE},
+        {"tex2D", TEXTURE},
         {"textureSize", "pass the size as a uniform"},
         {"saturate", "write clamp(x, 0.0, 1.0)"},
         {"lerp", "write mix(a, b, x)"},
@@ -112,6 +119,11 @@ const char *replacement_for(const Parser *parser, const char *name)
         {"round", "write floor(x + 0.5)"},
         {"trunc", "write sign(x) * floor(abs(x))"},
         {"mul", "write matrix * vector"},
+        {"fma", "write a * b + c"},
+        {"sinh", EXP},
+        {"cosh", EXP},
+        {"tanh", EXP},
+        {"isnan", "write x != x"},
         {"fmod", "write mod(x, y)"},
         {"atan2", "write atan(y, x)"},
         {"rsqrt", "write inversesqrt(x)"},
