@@ -7,6 +7,7 @@
 #include "base/paths.h"
 #include "core/shader_files.h"
 
+#include <dirent.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -31,12 +32,60 @@ static void add_source(char sources[PICTURE_SOURCES_SIZE], const char *path, con
     snprintf(sources + used, PICTURE_SOURCES_SIZE - used, "%s %016" PRIx64 "\n", name, key.bits[0]);
 }
 
-/* A file that cannot be read now has the hash of nothing. */
-static void add_file(char sources[PICTURE_SOURCES_SIZE], const char *name, const char *path)
+/* The value of a name in lines of names and values, and its length; NULL: it is not there. */
+static const char *source_value(const char *sources, const char *name, size_t length)
+{
+    for (const char *line = sources; *line; line = strchr(line, '\n') + 1)
+        if (strncmp(line, name, length) == 0 && line[length] == ' ')
+            return line + length + 1;
+    return NULL;
+}
+
+/* Whether a file names another; of a large one only what stands near its ends counts. */
+static bool is_named(const ImageFile *by, const char *name)
+{
+    enum { NEAR = 1 << 20 };
+    const size_t part = by->size < NEAR ? by->size : NEAR, length = strlen(name);
+    return name[0] != '.' && (memmem(by->bytes, part, name, length) ||
+                              memmem(by->bytes + by->size - part, part, name, length));
+}
+
+/* What a model names in its folder, or in one below: buffers, materials, and what those name. */
+static void add_named(char sources[PICTURE_SOURCES_SIZE], const char *folder, const ImageFile *by,
+                      int depth)
+{
+    struct dirent **entries;
+    const int count = scandir(folder, &entries, NULL, alphasort);
+    for (int i = 0; i < count; i++) {
+        const char *name = entries[i]->d_name;
+        char path[PATH_MAX];
+        ImageFile file = {.bytes = NULL};
+        if (is_named(by, name) && !source_value(sources, name, strlen(name)) &&
+            snprintf(path, sizeof path, "%s/%s", folder, name) < PATH_MAX) {
+            if (image_file_read(&file, path, NULL))
+                add_source(sources, name, file.bytes, file.size);
+            if (depth > 0)
+                add_named(sources, file.bytes ? folder : path, file.bytes ? &file : by, depth - 1);
+        }
+        image_file_close(&file);
+        free(entries[i]);
+    }
+    if (count >= 0)
+        free(entries);
+}
+
+/* A file that cannot be read now has the hash of nothing. `model`: it may name others. */
+static void add_file(char sources[PICTURE_SOURCES_SIZE], const char *path, bool model)
 {
     ImageFile file = {.bytes = NULL};
+    char folder[PATH_MAX];
+    const char *slash = strrchr(path, '/');
     image_file_read(&file, path, NULL);
-    add_source(sources, name, file.bytes, file.size);
+    add_source(sources, path, file.bytes, file.size);
+    snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - path + 1) : 1,
+             slash ? path : ".");
+    if (model && file.bytes)
+        add_named(sources, folder, &file, 2);
     image_file_close(&file);
 }
 
@@ -50,11 +99,11 @@ void picture_texts_sources(PictureSources *sources, const Example *example, cons
         sources->text[0] = '\0';
         sources->files = files;
         if (paths_program(program, NULL))
-            add_file(sources->text, program, program);
+            add_file(sources->text, program, false);
         for (const Parameter *own = example->parameters; own && own->name; own++) {
             const char *path = own->kind == PARAMETER_TEXT ? *(const char **)own->value : NULL;
             if (path && own->placeholder && strcmp(own->placeholder, "FILE") == 0)
-                add_file(sources->text, path, path);
+                add_file(sources->text, path, true);
         }
         for (int i = 0; i < files; i++)
             if (read->files[i].text)
@@ -76,15 +125,6 @@ bool picture_texts_kept(Picture *picture)
                       strcmp(picture->sources, wanted->sources) == 0;
     free(wanted);
     return kept;
-}
-
-/* The value of a name in lines of names and values, and its length; NULL: it is not there. */
-static const char *source_value(const char *sources, const char *name, size_t length)
-{
-    for (const char *line = sources; *line; line = strchr(line, '\n') + 1)
-        if (strncmp(line, name, length) == 0 && line[length] == ' ')
-            return line + length + 1;
-    return NULL;
 }
 
 /* Adds the lines of a picture to those of the ones before it. */

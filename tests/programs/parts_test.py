@@ -8,6 +8,7 @@ What the parts make together has the bytes of one run, also if they are killed a
 import filecmp
 import os
 import random
+import re
 import shutil
 import subprocess
 import sys
@@ -107,6 +108,14 @@ class Films(Parts):
         move()
         if os.path.exists(os.path.join(base.EXAMPLES, "../common/model_assimp.so")):
             self.assert_mixture_is_refused("ShadingModels", ("--model", "a b.obj"), r"a b\.obj", move)
+        # What the model names, too, and what that names in a folder.
+        triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl one\nf 1 2 3\n"
+        self.make("its/m.obj", "mtllib m.mtl\n" + triangle)
+        self.make("its/m.mtl", "newmtl one\nKd 1 0 0\nmap_Kd sub/wood.png\n")
+        self.make("its/sub/wood.png", self.good("-s", "4x4", "-o", "-", program="LightedCube"))
+        for name in "m.mtl", "wood.png":
+            path = self.path("its", "sub" * (name == "wood.png"), name)
+            self.assert_mixture_is_refused("Scene", ("its/m.obj",), re.escape(name), lambda: self.edit(path))
 
     def test_parts_of_different_programs_are_not_merged(self):
         draw = (*TURN, "--shaders", os.path.join(base.SOURCE, "shaders"), "-o", "a.gif")
