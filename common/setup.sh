@@ -11,6 +11,8 @@
 
 root=$(CDPATH='' cd -- "${self%/*}/.." && pwd -P) || exit 1
 build=${LIGHTING_BUILD:-$root/build}
+# Debian's emcc starts the first python3 in PATH for each file, which may be a version manager's: half a second.
+[ -x /usr/bin/python3 ] && export EMSDK_PYTHON="${EMSDK_PYTHON:-/usr/bin/python3}"
 
 # Debian's packages, by what needs them. To build and draw:
 packages_to_draw="gcc libc6-dev pkg-config meson ninja-build libegl-dev libgles-dev libegl-mesa0 \

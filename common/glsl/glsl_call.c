@@ -97,14 +97,13 @@ static void settle_call(Parser *parser, int node, int type, bool constant)
         fold(parser->tree, node);
 }
 
+const char *replacement_for(const Parser *parser, const char *name)
+{
+#define DERIVATIVES "write #extension GL_OES_standard_derivatives : enable first"
+#define SHADOW "take a sampler2D, and compare the depth that texture2D returns with the point's own"
 #define TEXTURE "write texture2D(sampler, point)"
 #define UNIFORM "compute it in the program, and pass it as a uniform"
 #define EXP "write it with exp"
-#define DERIVATIVES "write #extension GL_OES_standard_derivatives : enable first"
-#define SHADOW "take a sampler2D, and compare the depth that texture2D returns with the point's own"
-
-const char *replacement_for(const Parser *parser, const char *name)
-{
     static const char *const WORDS[][2] = {
         {"inverse", UNIFORM},
         {"determinant", UNIFORM},

@@ -145,7 +145,6 @@ def share(counts, total):
 
 
 # Of lab 10, and of mistakes that take a diagnosis: seconds of processor time for each.
-LONG = unittest.skipUnless(base.LONG, "the long form")
 
 
 class Labs(base.Case):
@@ -181,7 +180,7 @@ class Right(Labs):
             jobs += [(lab, os.path.join(folder, name), 3) for name in names]
         self.assert_right(jobs[:: base.step(36)])
 
-    @LONG
+    @base.in_long_form
     def test_what_the_task_calls_a_bias_is_right(self):
         for seed, bias in ((2, "0.006"), (3, "0.0005")):
             texts = mistakes.applied(
@@ -440,7 +439,7 @@ class Holes(Labs):
         self.assertEqual(len(named(result)), 1, result["message"])
         self.assertIn("min(", result["mistakes"][0]["sentence"])
 
-    @LONG
+    @base.in_long_form
     def test_a_sphere_that_the_fragment_shader_cuts_out_of_a_larger_mesh(self):
         """Its outline is the exact one, not the mesh's."""
         texts = mistakes.read(10)
@@ -459,7 +458,7 @@ class Holes(Labs):
         result = check_texts(10, texts)
         self.assertEqual(result["verdict"], "right", result["message"])
 
-    @LONG
+    @base.in_long_form
     def test_a_mesh_that_is_just_too_coarse_has_no_other_name(self):
         texts = mistakes.read(10)
         texts["budget.c"] = texts["budget.c"].replace("112", "64").replace("80", "44")
@@ -484,7 +483,7 @@ class Holes(Labs):
             self.assertEqual(result["verdict"], "wrong", (lab, result["message"]))
             self.assertEqual(named(result), ["index beyond the array"])
 
-    @LONG
+    @base.in_long_form
     def test_an_index_beyond_the_array_of_another_lab(self):
         """Whose file lies in the same folder."""
         other = mistakes.read(2)["lab02.vert"].replace("i < 2", "i < 3")
@@ -589,7 +588,7 @@ class Holes(Labs):
         result = self.wrong(5, ("frag", out, late))
         self.assertEqual(named(result), ["depends on the picture's size"])
 
-    @LONG
+    @base.in_long_form
     def test_legal_words_of_glsl_1_are_counted(self):
         texts = edited(
             10,

@@ -76,6 +76,7 @@ class Surveys(Study):
         self.assertNotIn("--samples", text)
         self.assertEqual(self.everything(), {})
 
+    @base.in_long_form
     def test_a_bound_is_proved_for_all_points(self):
         text = self.accuracy("--prove", "sphere", "-s", "100x100")
         self.assertRegex(text, r"^sphere, 100 rows\nhighp:\n  object 1: at most 0\.\d+ steps")
@@ -192,6 +193,7 @@ class Surveys(Study):
                     self.assertTrue(any(lightness(color) == most and max(abs(a - b) for a, b in zip(color, found)) <= off
                                         for color in part), (name, at, found))
 
+    @base.in_long_form
     def test_pictures_are_for_terminals_with_colours_and_room(self):
         printed = self.survey()
         self.assertNotIn("\u2580", printed)
@@ -258,6 +260,7 @@ class Surveys(Study):
         self.assertLessEqual(len(pins), 5)
         self.assertEqual(self.png("accuracy/cube-pin-1.png").width, 2 * 240 + 8)
 
+    @base.in_long_form
     def test_times_of_a_busy_machine_are_compared_nowhere(self):
         self.survey()
         text = self.set_noise("0.2")
@@ -313,6 +316,7 @@ class Surveys(Study):
             self.accuracy("--scene", "cube", "--fresh", "--seed", "7", *QUICK)
             self.assertEqual({row["seed"] for row in self.rows()}, {"7"})
 
+    @base.in_long_form
     def test_broken_rows_are_named_and_measured_again(self):
         self.survey()
         lines = self.read("accuracy/results.csv").splitlines(keepends=True)
@@ -337,6 +341,7 @@ class Surveys(Study):
         self.assertEqual([row["time"] == "" for row in rows],
                          [True] + (12 + 15) * [False] if base.LONG else 15 * [False])
 
+    @base.in_long_form
     def test_an_interrupted_survey_goes_on(self):
         """Twice, in the long form; to the end: test_killed_parts_go_on, and from broken rows."""
         command = [os.path.join(base.EXAMPLES, "accuracy"), "--scene", "shiny8", "-s", "32x32"]
@@ -359,6 +364,7 @@ class Surveys(Study):
             self.assertTrue(not again or after.startswith(before))
             before = after
 
+    @base.in_long_form
     def test_parts_are_merged_into_the_rows_of_one_survey(self):
         """Parts made of one survey's rows, the second from a machine that takes twice the time."""
         self.survey()
@@ -418,6 +424,7 @@ class Surveys(Study):
                         for row in self.rows(folder)] for folder in ("accuracy", "parts"))
         self.assertEqual(one, merged)
 
+    @base.in_long_form
     def test_without_gnuplot_the_rest_is_there(self):
         self.survey()
         for name in os.listdir(self.path("accuracy")):
@@ -497,11 +504,13 @@ class Choices(Study):
         self.assertRegex(self.accuracy("--scene", "sphere", "--budget", "1", "--rms", *QUICK),
                          r"^cheapest: .*\n  rms error ")
 
+    @base.in_long_form
     def test_a_budget_out_of_reach_says_the_best(self):
         said = r"--budget 0: no setting of sphere is so exact; the best has 0\.\d+$"
         self.says(1, "^accuracy: " + said, "--scene", "sphere", "--budget", "0", *QUICK,
                   program="accuracy", environment=self.own)
 
+    @base.in_long_form
     def test_the_most_exact_within_a_time_is_named(self):
         text = self.accuracy("--scene", "sphere", "--time-budget", "1000000", *QUICK)
         self.assertRegex(text, r"^most exact: .*\n")
@@ -534,6 +543,7 @@ class Choices(Study):
         self.assertGreater(int(found[1]), 0)
         self.assertIn(found[0], " ".join(explained.split()))
 
+    @base.in_long_form
     def test_each_way_of_shadows_has_a_choice_of_its_own(self):
         choices = [self.run_it("--spot", "off", "--point", "off", "--error", "8", "-v", "--shadows", way,
                                "-s", "40x40", "-o", "x.png", program="Shadows", environment=self.own).stderr.decode()
@@ -552,6 +562,7 @@ class Choices(Study):
         self.wrong(2, "--error: no such option", "--error", "1", program="LightedCube",
                    lines=1)
 
+    @base.in_long_form
     def test_error_keeps_the_options_that_are_given(self):
         for more in (["--interpolation", "flat"], ["--interpolation", "phong"],
                      ["--interpolation", "gouraud"], ["--precision", "mediump"])[::base.step(3)]:
@@ -565,6 +576,7 @@ class Choices(Study):
                              program="FourLights", environment=self.own).stderr.decode()
             self.assertEqual(bool(re.search(simpler, text)), found, more)
 
+    @base.in_long_form
     def test_without_a_cache_error_draws_the_same(self):
         self.make("file", "no folder")
         pictures = []

@@ -225,6 +225,7 @@ class Formats(Animations):
         self.assertEqual(WebP(self.path("a.webp")).loops, 0)
         self.assertIn((b"acTL", struct.pack(">II", 3, 0)), apng_chunks(self.read("a.apng")))
 
+    @base.in_long_form
     def test_alpha_is_kept_where_it_can_be(self):
         count, area = 4, 40 * 30
         wanted = self.numbered(count, "--alpha")
@@ -239,6 +240,7 @@ class Formats(Animations):
             # Two values, and between them an edge that is coded as exactly as the colours.
             self.assertLess(rms(yuva[-area:], rgba[3::4]), 4)
 
+    @base.in_long_form
     def test_an_animation_can_be_made_again(self):
         for kind in FILES[:: base.step(2)]:
             self.draw("a." + kind, 5)
@@ -250,6 +252,7 @@ class Formats(Animations):
             self.draw(level + ".apng", 3, "--compress", level)
         self.assertLess(len(self.read("9.apng")), len(self.read("0.apng")) // 2)
 
+    @base.in_long_form
     def test_one_picture_of_a_gif_or_webp_is_a_picture(self):
         for kind, start in (("gif", b"GIF89a"), ("webp", b"RIFF")):
             self.draw("a." + kind, 1)
@@ -260,6 +263,7 @@ class Formats(Animations):
         self.draw("50%.gif", 2)
         self.assertEqual(len(decode(self.path("50%.gif"), 3600)), 2)
 
+    @base.in_long_form
     def test_a_pipe_and_a_link_are_written_through(self):
         self.make("target.apng")
         os.symlink("target.apng", self.path("link.apng"))
@@ -356,6 +360,7 @@ class Streams(Animations):
             begins, _ = times(self.path("a.y4m"))
             self.assertEqual(begins, [Fraction(i, 30) for i in range(count)])
 
+    @base.in_long_form
     def test_rates_are_fractions(self):
         for given, said in (("29.97", "2997:100"), ("0.1", "1:10"), ("23.976", "2997:125"),
                             ("59.94005994005994", "60000:1001"), ("1000000", "1000000:1"),

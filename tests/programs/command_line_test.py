@@ -63,10 +63,15 @@ LONG = bool(os.environ.get("LIGHTING_TEST_LONG"))
 
 
 def step(number):
-    """Of many similar cases: the short form takes every `number`-th, the long one (tests/run --long,
-    which sets LIGHTING_TEST_LONG) all; AddressSanitizer, which needs code rather than cases, a quarter
-    of the short one's."""
-    return 1 if LONG else 4 * number if SANITIZED else number
+    """Of many similar cases: the short form takes every `2 * number`-th, the long one (tests/run --long,
+    which sets LIGHTING_TEST_LONG) all; AddressSanitizer, which needs code rather than cases, half of
+    the short one's."""
+    return 1 if LONG else 4 * number if SANITIZED else 2 * number
+
+
+def in_long_form(test):
+    """A case that costs much and that a change seldom breaks: the short form leaves it out."""
+    return test if LONG else None  # which is no case
 
 
 def seed():
@@ -360,6 +365,7 @@ class Options(Case):
         self.good(*SMALL, "-n", "2", **move)
         self.assertTrue(os.path.exists(self.path("LightedCube_animation0001.png")))
 
+    @in_long_form
     def test_an_angle_is_a_time(self):
         for program, moves in (("LightedCube_animation", True), ("LightedCube", False)):
             for name, option, value in (("a.png", "-a", "75"), ("t.png", "-t", "2.5"),
@@ -404,6 +410,7 @@ class Options(Case):
         self.refused(1, "^LightedCube: LIGHTING_BACKEND: glut: no such backend; there is egl",
                      environment={"LIGHTING_BACKEND": "glut"})
 
+    @in_long_form
     def test_osmesa_draws_what_egl_draws(self):
         """In mediump too, which both compute in 16 bits."""
         self.need_osmesa()
@@ -430,6 +437,7 @@ class Options(Case):
             self.assertRegex(works, r"renderer \S.* \((software|hardware)\), OpenGL ")
         self.assertEqual(self.everything(), {})
 
+    @in_long_form
     def test_the_doctor_begins_with_the_packages(self):
         """Each is there or not, with its version if it tells one, and with what it gives."""
         def packages(**environment):
@@ -493,6 +501,7 @@ class Options(Case):
             self.refused(1, "OpenImageIO: its module, common/image_oiio.so, is not built yet: .*examples/run",
                          *SMALL, "-o", "a.exr", program=program)
 
+    @in_long_form
     def test_the_first_picture_is_the_plugins(self):
         """What a program of the lecture draws by itself has the same bytes as with any option; what goes wrong, or is
         to be warned of, the plugin says."""
@@ -701,6 +710,7 @@ class Generated(Case):
                     self.assertIn(word, text)
                 self.assertEqual("LIGHTING_SHADERS" in text.partition(".SH ENVIRONMENT")[2], has)
 
+    @in_long_form
     @unittest.skipUnless(shutil.which("groff"), "groff is not installed")
     def test_man_pages_are_typeset_without_warnings(self):
         for program in EVERY:
@@ -743,6 +753,7 @@ class Outputs(Case):
             self.refused(1, "^LightedCube: .*" + said, *SMALL, "-o", output)
         self.refused(1, "folder missing0/ does not exist", "-n", "2", "-o", "missing%d/a.png")
 
+    @in_long_form
     def test_devices_are_written_through(self):
         self.need_somebody()
         os.symlink("/dev/full", self.path("full.png"))
@@ -787,6 +798,7 @@ class Outputs(Case):
             self.assertRegex(result.stderr.decode(), r"^LightedCube: \w+\.png: cannot write: .*\n$")
             self.assertEqual(self.everything(), before)
 
+    @in_long_form
     @unittest.skipUnless(os.path.exists(MODULE), "built without OpenImageIO")
     def test_a_format_that_is_cut_at_the_limit_is_not_written(self):
         """OpenImageIO does not notice that the end of an OpenEXR file is missing."""
@@ -831,6 +843,7 @@ class Outputs(Case):
                      "--frames", "2", "-o", "a%d.png")
         self.refused(1, "--show: a pixel of several samples", *SMALL, "--show", "error", "--samples", "4")
 
+    @in_long_form
     def test_a_picture_as_another_device_would_draw_it(self):
         """Exactly what the driver draws, if the device is this one; with two digits, something else."""
         with open(os.path.join(self.folder, "measured.json"), "w") as file:
@@ -879,6 +892,7 @@ class Outputs(Case):
                              program=program).decode()
             self.assertEqual("= (0, 0, 0) * 0.5\n" in said, name == "few", said)
 
+    @in_long_form
     def test_each_effect_has_the_lines_that_it_brings_in(self):
         """But those that are no lines: what is left out, culling, and that a light is there."""
         none = re.compile(r"#|$|as view | *without |light |culling |normals not |  dot products clamped|operations|in the full")
@@ -915,6 +929,7 @@ class Outputs(Case):
         text = self.good("--probe", "200,200", program="PointLightedCube").decode()
         self.assertRegex(text, r"\ncomputed: .*; exactly, the same text: .*; at the pixel itself: [0-9.]+, [0-9.]+, [0-9.]+\n")
 
+    @in_long_form
     def test_the_terms_that_probe_tells_make_their_numbers_and_the_sum(self):
         def color(text):
             numbers = [float(number) for number in text.split(", ")]
@@ -958,6 +973,7 @@ class Outputs(Case):
                 self.refused(1, "^LightedCube: standard output: cannot write: ", *SMALL, *arguments,
                              shell=shell)
 
+    @in_long_form
     def test_a_reader_that_leaves_ends_a_program_quietly(self):
         for program, *arguments in (
                 ("LightedCube", "--help"), ("LightedCube", "-o", "-"),
@@ -990,6 +1006,7 @@ class Outputs(Case):
         self.good(*SMALL, "-o", "b.png", program=self.path("linked"))
         self.assertEqual(self.read("a.png"), self.read("b.png"))
 
+    @in_long_form
     @unittest.skipIf(SANITIZED, "a sanitizer needs /proc")
     def test_programs_run_without_proc(self):
         """As in a plain chroot: they find their plugins and shaders, and start again."""
@@ -1015,6 +1032,7 @@ class Outputs(Case):
         self.assertEqual(channels[:6], b"B\0" + struct.pack("<I", 2))
         self.refused(1, "folder missing/ does not exist", "-o", "missing/a.exr")
 
+    @in_long_form
     def test_a_cache_that_cannot_be_made_is_no_word(self):
         """Mesa would say so: in a home that is read-only, or where XDG_CACHE_HOME is no folder."""
         self.make("file")
@@ -1754,6 +1772,7 @@ class Again(Case):
                 if words[2:]:  # the one that was given
                     self.assertEqual(words[2:], ["--" + name, value])
 
+    @in_long_form
     @unittest.skipUnless(os.path.exists(MODULE), "without OpenImageIO")
     def test_exr_and_tiff_say_it_too(self):
         for number, suffix in enumerate(("exr", "tif", "tiff")[:None if LONG else 2]):
@@ -1761,6 +1780,7 @@ class Again(Case):
                 self.assert_again(program, *SMALL, "-t", "1.1", suffix=suffix)
             self.assert_again("Materials", *SMALL, "--material", "gold", "--alpha", suffix=suffix)
 
+    @in_long_form
     def test_shaders_and_backends_are_said(self):
         folder = self.path("my shaders'")
         shutil.copytree(os.path.join(SOURCE, "shaders/lecture"), folder)
@@ -1773,6 +1793,7 @@ class Again(Case):
                 words = self.assert_again("LightedCube", *SMALL, "-b", "osmesa", **more)
                 self.assertIn("osmesa", words)
 
+    @in_long_form
     def test_pictures_of_a_gallery_and_of_frames_say_it(self):
         self.good(*SMALL, "-t", "0.3", "-o", "all", program="gallery")
         self.good(*SMALL, "-n", "3", "--fps", "7", "-o", "f%d.png", program="LightedCube_animation")
@@ -1820,6 +1841,7 @@ class Again(Case):
     LEAST = {"GALLIUM_OVERRIDE_CPU_CAPS": "sse4.1", "LP_NATIVE_VECTOR_WIDTH": "128",
              "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4"}
 
+    @in_long_form
     def test_deterministic_caps_the_processor(self):
         draw = ("-s", "90x60", "--deterministic", "-o", "-")
         picture = self.good(*draw, program="PhongBlinn")
@@ -1850,6 +1872,7 @@ class Again(Case):
                     env={**os.environ, **self.LEAST, "LP_NUM_THREADS": "0"}, capture_output=True)
                 self.assertTrue(result.stdout == picture, (program, processor, result.stderr))
 
+    @in_long_form
     @unittest.skipUnless(os.path.exists(MODULE), "without OpenImageIO")
     def test_a_date_is_that_of_source_date_epoch(self):
         for suffix in ("exr", "tif")[::step(2)]:

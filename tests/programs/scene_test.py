@@ -203,7 +203,7 @@ class Scene(base.Case):
         """Of several views the first. Axes and the marks of lights have components of 0 and 255 alone; a label ends a view."""
         side, label, marks = 150, 130, 600  # 150x150: four marks of 10x10, and three axes
         views = {"ColoredLights": (1, 5), "LightTypes": (3, 2), "PhongBlinn": (3, 1), "TermsApart": (5, 2)}
-        for program in base.SCENES:
+        for program in base.SCENES[:: base.step(2)]:
             columns, rows = views.get(program, (1, 1))
             size = f"{columns * side}x{rows * side}"
             self.good("-t", "1.5", "-s", size, "--save-scene", "a.gltf", program=program)
@@ -373,6 +373,7 @@ class Scene(base.Case):
         return self.save("a.gltf", tetrahedron(nodes=nodes, scenes=[{"nodes": [*range(len(nodes))]}],
                                                extensions={"KHR_lights_punctual": {"lights": lamps}}, **members))
 
+    @base.in_long_form
     def test_each_object_has_the_lights_that_reach_it(self):
         """A hall with more lamps than a program has, of which few reach an object, and one with as many lamps at each; the exact
         picture has all of them."""
@@ -543,6 +544,7 @@ class Scene(base.Case):
         yield "a.ply", plain.replace(b"end_header", b""), "no end"
         yield "a.obj", b"mtllib ../../../etc/passwd\n", "cannot read"
 
+    @base.in_long_form
     @unittest.skipIf(base.SANITIZED, "a sanitizer has a heap of its own")
     def test_frames_of_large_meshes_take_no_new_memory(self):
         """What Mesa takes for the vertices of a frame is not given back to the system, which clears it."""
@@ -565,7 +567,7 @@ class Scene(base.Case):
         self.assertLess(faults[1] - faults[0], 1000, faults)
 
     def test_bad_files_end_with_one_line(self):
-        for name, file, what in self.bad_files():
+        for name, file, what in list(self.bad_files())[:: base.step(2)]:
             self.save(name, file)
             said = self.one_line(self.run_it(name, *base.SMALL, program="Scene"), file, what)
             self.assertTrue(said.startswith(f"Scene: {name}: ") and what in said, (what, said))

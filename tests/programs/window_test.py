@@ -367,6 +367,7 @@ class Pictures(Case):
                 self.assert_shown(shown)
                 shown.leave()
 
+    @base.in_long_form
     @unittest.skipUnless(base.DIAGRAMS, "no cairo")
     def test_a_diagram_shows_and_saves_what_it_draws_headless(self):
         for arguments in (), ("--figure", "rays"), ("--light", "100", "--rays", "radiating"):
@@ -377,6 +378,7 @@ class Pictures(Case):
                 self.assert_shown(shown)
                 shown.leave()
 
+    @base.in_long_form
     def test_pages_are_turned(self):
         shown = self.show("-s", "320x240", program="lessons", paused=True)
 
@@ -406,6 +408,7 @@ class Pictures(Case):
             os.remove(self.path("a.svg"))
         shown.leave()
 
+    @base.in_long_form
     def test_options_hold_in_a_window(self):
         for arguments in (("--samples", "4"), ("--precision", "highp"), ("-t", "-3"),
                           ("--orbit", "30,20,0.7")):
@@ -414,6 +417,7 @@ class Pictures(Case):
                 self.assert_shown(shown)
                 shown.leave()
 
+    @base.in_long_form
     def test_a_saved_picture_has_the_name_that_was_asked_for(self):
         shown = self.show("-s", "50x50")
         for _ in range(2):
@@ -433,6 +437,7 @@ class Pictures(Case):
         self.assertGreater(seconds_of(second), seconds_of(first))
         self.assertEqual(self.png("one.png").texts, second.texts)
 
+    @base.in_long_form
     def test_a_window_draws_what_other_backends_draw(self):
         for name, environment, arguments in (
                 ("egl", {}, ()), ("given", {}, ("--backend", "window")),
@@ -497,6 +502,7 @@ class Keys(Case):
         wait_for(lambda: shown.title().endswith("paused"), "a pause")
         self.assertEqual(seconds_of(shown.save()), seconds_of(shown.save()))
 
+    @base.in_long_form
     def test_dragging_and_scrolling_are_an_orbit(self):
         for program in MOVING, SCENE:
             shown = self.show("-s", "300x300", program=program, paused=True)
@@ -607,6 +613,7 @@ class Commands(Case):
         subprocess.run(["sh", "-c", command], cwd=self.folder, check=True, timeout=DEADLINE)
         self.assertTrue(self.png("a b.png").pixels == picture.pixels)
 
+    @base.in_long_form
     def test_what_is_said_runs_in_a_shell(self):
         shown = self.show("-s", "150x150", "-o", "a b.png")
         self.assert_runs(shown, os.path.join(base.EXAMPLES, MOVING) + " --output 'a b.png' ")
@@ -635,6 +642,7 @@ class Sizes(Case):
             self.assertEqual((picture.width, picture.height), size)
             shown.leave()
 
+    @base.in_long_form
     def test_f_is_the_whole_screen_and_back(self):
         shown = self.show("-s", "200x150", paused=True)
         before = shown.place()
@@ -697,6 +705,7 @@ class Panel(Case):
         picture = shown.save()
         return picture if (picture.width, picture.height) == size else None
 
+    @base.in_long_form
     def test_a_window_without_its_panel_is_as_it_was(self):
         shown = self.show("-s", "900x300", program=SCENE, paused=True)
         shown.key("p")
@@ -729,6 +738,7 @@ class Panel(Case):
         self.assertTrue(shown.save().pixels == plain)
 
 
+    @base.in_long_form
     def test_a_light_is_dragged_by_its_point(self):
         """In the plane parallel to the picture, where the pointer takes it."""
         shown = self.show("-s", "400x600", program=SCENE, paused=True)
@@ -758,6 +768,7 @@ class Panel(Case):
         self.assertIsNotNone(orbit_of(picture))
         self.assertNotIn("--light-at", picture.command)
 
+    @base.in_long_form
     def test_a_light_gets_another_color(self):
         """By a click into a slider; where it lies is up to the panel."""
         shown = self.show("-s", "500x400", program=SCENE, paused=True)
@@ -802,6 +813,7 @@ class Panel(Case):
         self.assertEqual(len(picture.command), 7, picture.command)  # output, size and time
         self.assert_headless(picture, SCENE)
 
+    @base.in_long_form
     def test_a_map_shows_where_the_error_is(self):
         """In the picture's place; what is saved stays the picture. Its switch is looked for about
         where it is."""
@@ -875,6 +887,7 @@ class Panel(Case):
         shown.key("p")
         wait_for(lambda: shown.place()[2] == 300, "the window as it was")
 
+    @base.in_long_form
     @unittest.skipUnless(base.DIAGRAMS, "no cairo")
     def test_the_panel_moves_a_diagram(self):
         """A click on "blinn-phong"; where it lies is up to the panel."""
@@ -1022,6 +1035,7 @@ class Pixels(Case):
             shown.key("Escape")
             shown.ends(0, None)
 
+    @base.in_long_form
     def test_the_title_tells_of_the_pixel_under_the_pointer(self):
         for program, background in (SCENE, "; the background, exactly .*"), ("PointLightedCube", ""):
             shown = self.show("-s", "400x400", program=program, paused=True)
@@ -1048,6 +1062,7 @@ class Ends(Case):
         self.manager.close(shown.window)
         shown.ends(0)
 
+    @base.in_long_form
     def test_closing_it_during_a_save_leaves_whole_files(self):
         for _ in range(3):
             shown = self.show("-s", "900x700", "--compress", "9")
@@ -1103,6 +1118,7 @@ class Ends(Case):
         self.assertRegex(shown.said(), rf"^{MOVING}: a\.png: cannot write: .*\n$")
         self.assertEqual(self.read("a.png"), b"old")
 
+    @base.in_long_form
     def test_random_input_does_no_harm(self):
         hands = random.Random(7)
         shown = self.show("-s", "200x200")
@@ -1149,6 +1165,7 @@ class Displays(base.Case):
                      + self.HOW, "--window", program=MOVING,
                      environment={"LD_LIBRARY_PATH": self.path("empty")})
 
+    @base.in_long_form
     def test_no_library_misses_the_folder_of_a_session(self):
         """libwayland says so itself, on standard error, where it has to look for a display."""
         for folder in "", "relative", "/nonexistent":
@@ -1166,6 +1183,7 @@ class Displays(base.Case):
         self.refused(2, "^gallery: --window: ", "--window", program="gallery")
         self.refused(2, r"--size 0x4: ", "--window", "-s", "0x4")
 
+    @base.in_long_form
     def test_a_display_that_dies_ends_the_program_with_one_line(self):
         self.server = Server()
         self.addCleanup(self.server.stop)
@@ -1180,6 +1198,7 @@ class Displays(base.Case):
             used = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
             self.assertLess(used, 8)
 
+    @base.in_long_form
     def test_a_display_that_dies_at_the_start(self):
         for delay in range(0, 100, 20):
             server = Server()

@@ -65,13 +65,13 @@ int testing_run(int list, const char *name, CMFixtureFunction setup, CMFixtureFu
 /* Exit code of a test that this machine cannot run. */
 enum { EXIT_SKIPPED = 77 };
 
-/* The short form of the tests takes every `step`-th of many similar cases, and of four times fewer
- * on the second backend and under AddressSanitizer; the long form (LIGHTING_TEST_LONG in the
- * environment, set by tests/run
- * --long) takes all: then this is 1. */
+/* Of many similar cases the short form of the tests takes every `2 * step`-th, on the second
+ * backend and under AddressSanitizer every `4 * step`-th. The long form (LIGHTING_TEST_LONG in the
+ * environment, set by tests/run --long) takes all: then this is 1; on the second backend, whose
+ * rasterizer is the first one's, a quarter. */
 int testing_step(int step);
 
-/* Of `count` random cases as many as every `step`-th, at least one. */
+/* Of `count` random cases as many as with a step, at least one. */
 int testing_part(int count, int step);
 
 /* Runs `body` in one process of the short form, and in as many as there are processors of the long
