@@ -12,7 +12,7 @@ import tempfile
 import urllib.parse
 
 import sizes
-from pages import SITE, SOURCE, Case, address, differences, native
+from pages import IN_FIREFOX, SITE, SOURCE, Case, address, differences, native
 
 CHAPTERS = sorted(path.stem for path in pathlib.Path(SITE).glob("chapter*.html")) or [f"chapter{i:02}" for i in range(1, 22)]
 STEADY = """(() => {
@@ -143,18 +143,20 @@ class Book(Case):
                     const {{ways}} = Book.book.figures[{number}];
                     return ways[1].said.textContent && ways.map(way => way.said.textContent);
                 }})()""")
-                self.assertGreater(float(re.search("[0-9]+", said[0])[0]), 40)
+                if IN_FIREFOX and "mediump" in " ".join(words):  # which it does not have
+                    self.assertEqual(said[0], ": as stable")
+                else:
+                    self.assertGreater(float(re.search("[0-9]+", said[0])[0]), 40)
                 self.assertLess(float(re.search("[0-9.]+", said[1])[0]), 23)  # the least divided mesh's
 
     def test_the_first_figure_comes_within_a_second(self):
         """From the beginning of loading; the best of five, and longer where each core has more to do than this."""
-        script = self.page.call("Page.addScriptToEvaluateOnNewDocument", source="""(function look() {
+        with self.page.before("""(function look() {
             if (typeof Book !== "undefined" && Book.book.figures.some(({drawn}) => drawn))
                 window.first = performance.now();
             else
                 requestAnimationFrame(look);
-        })();""")["identifier"]
-        try:
+        })();"""):
             self.page.resize(1280, 900)
             for name in ("chapter01", "chapter12", "chapter16"):
                 times = []
@@ -164,8 +166,6 @@ class Book(Case):
                     times.append(self.page.wait("window.first"))
                 with self.subTest(name, times=times):
                     self.assertLess(min(times), 1000 * max(1, os.getloadavg()[0] / os.cpu_count()))
-        finally:
-            self.page.call("Page.removeScriptToEvaluateOnNewDocument", identifier=script)
 
     def test_what_accuracy_costs_is_measured(self):
         """Where figures are drawn, and where nothing is until then."""
@@ -229,19 +229,19 @@ class Book(Case):
     def test_paper(self):
         for name in ("chapter07", "chapter20"):
             self.open_all(name)
-            self.page.call("Emulation.setEmulatedMedia", media="print")
+            self.page.media("print")
             try:
                 self.page.run("dispatchEvent(new Event('beforeprint'))")
                 self.page.wait("[...document.querySelectorAll('figure > img')].every(image => image.naturalWidth && image.offsetHeight)")
                 self.assertEqual(self.page.run("[...document.querySelectorAll('figure canvas')].filter(c => c.offsetHeight).length"), 0)
             finally:
-                self.page.call("Emulation.setEmulatedMedia", media="")
+                self.page.media()
             self.assertEqual(self.page.run("document.querySelectorAll('.expect:not([open])').length"), 0)
             # As its reader prints it: with all pictures.
             self.open(name)
             with tempfile.TemporaryDirectory() as folder:
                 file = pathlib.Path(folder, "chapter.pdf")
-                file.write_bytes(base64.b64decode(self.page.call("Page.printToPDF")["data"]))
+                file.write_bytes(self.page.pdf())
                 images = subprocess.run(["pdfimages", "-list", file], check=True, stdout=subprocess.PIPE, encoding="utf-8").stdout
             source = pathlib.Path(SITE, name + ".html").read_text(encoding="utf-8")
             self.assertGreaterEqual(len(images.splitlines()) - 2, len(re.findall(r'<img[^>]* data-src="\w+\.png"', source)))
@@ -300,20 +300,17 @@ class Book(Case):
         return " ".join(html.unescape(re.sub("<.*?>", "", text)).split())
 
     def test_without_webgl(self):
-        script = self.page.call("Page.addScriptToEvaluateOnNewDocument", source="""
+        with self.page.before("""
             const real = HTMLCanvasElement.prototype.getContext;
             HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
                 return kind.startsWith("webgl") ? null : real.call(this, kind, ...more);
-            };""")["identifier"]
-        try:
+            };"""):
             self.open("chapter07")
             self.page.wait("Book.book.figures.every(({drawn}) => drawn)")
             self.page.wait("[...document.querySelectorAll('figure > img')].every(image => image.naturalWidth && image.offsetHeight)")
             self.assertEqual(self.page.run("[...document.querySelectorAll('figure canvas')].filter(c => c.offsetHeight).length"), 0)
             self.page.run("document.querySelectorAll('details.expect').forEach(part => { part.open = true; })")
             self.page.wait("[...document.querySelectorAll('.drawn')].every(image => image.naturalWidth && image.offsetHeight)")
-        finally:
-            self.page.call("Page.removeScriptToEvaluateOnNewDocument", identifier=script)
 
     def test_the_device_is_measured(self):
         """llvmpipe's highp has 24 bits; of mediump nothing is known here."""

@@ -1,5 +1,6 @@
 """Drives a headless Chromium through --remote-debugging-pipe (https://chromedevtools.github.io/devtools-protocol)."""
 import base64
+import contextlib
 import fcntl
 import json
 import os
@@ -37,7 +38,7 @@ class Page:
             try:
                 value = self.run(script)
             except Failed as failed:
-                if "navigated" not in str(failed):  # the page goes while it is asked
+                if not self.gone(str(failed)):  # the page goes while it is asked
                     raise
                 value = None
             if value:
@@ -52,6 +53,51 @@ class Page:
         self.navigate(address)
         if ready:
             self.wait(f"location.href !== 'about:blank' && document.readyState === 'complete' && ({ready})")
+
+    @contextlib.contextmanager
+    def before(self, script):
+        """Meanwhile a script runs before those of each page that is opened."""
+        added = self.before_pages(script)
+        try:
+            yield
+        finally:
+            self.no_longer_before_pages(added)
+
+    def show_tab(self, tab):
+        """One that is not shown draws no frames."""
+        self.tab = tab
+        self.bring_to_front()
+
+    def screenshot(self, path, whole=True):
+        with open(path, "wb") as file:
+            file.write(base64.b64decode(self.captured(whole)))
+
+    def place(self, selector):
+        """The middle of an element, scrolled into view, once it has stayed there for a frame."""
+        return self.run(f"""new Promise(resolve => {{
+            const element = document.querySelector({json.dumps(selector)});
+            const look = before => {{
+                element.scrollIntoView({{block: "center"}});
+                const box = element.getBoundingClientRect();
+                const middle = [box.left + box.width / 2, box.top + box.height / 2];
+                if (String(middle) === before)
+                    resolve(middle);
+                else
+                    requestAnimationFrame(() => look(String(middle)));
+            }};
+            look("");
+        }})""")
+
+    def click(self, selector):
+        x, y = self.place(selector)
+        self.mouse("mousePressed", x, y)
+        self.mouse("mouseReleased", x, y)
+
+    def drag(self, selector, dx, dy):
+        x, y = self.place(selector)
+        self.mouse("mousePressed", x, y)
+        self.mouse("mouseMoved", x + dx, y + dy)
+        self.mouse("mouseReleased", x + dx, y + dy)
 
 
 class Browser(Page):
@@ -73,23 +119,22 @@ class Browser(Page):
         os.close(theirs_in)
         os.close(theirs_out)
         self.output, self.input = ours_out, os.fdopen(ours_in, "rb")
-        self.number, self.session, self.events, self.rest = 0, None, [], b""
+        self.number, self.tab, self.events, self.rest = 0, None, [], b""
         self.size = size
         self.new_tab()
+        self.call("Browser.grantPermissions", permissions=["clipboardReadWrite", "clipboardSanitizedWrite"])
 
     def new_tab(self):
         """Goes on in another tab; returns that of before, for `show_tab`."""
-        before, self.session = self.session, None
+        before, self.tab = self.tab, None
         target = self.call("Target.createTarget", url="about:blank")["targetId"]
-        self.session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
+        self.tab = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         for domain in ("Page", "Runtime", "Log", "Network"):
             self.call(domain + ".enable")
         self.resize(*self.size)
         return before
 
-    def show_tab(self, session):
-        """One that is not shown draws no frames."""
-        self.session = session
+    def bring_to_front(self):
         self.call("Page.bringToFront")
 
     def close_tab(self, then):
@@ -98,7 +143,7 @@ class Browser(Page):
 
     def close(self):
         try:
-            self.session = None
+            self.tab = None
             self.call("Browser.close")
             self.process.wait(10)
         except (OSError, Failed, subprocess.TimeoutExpired):
@@ -120,8 +165,8 @@ class Browser(Page):
     def call(self, method, **parameters):
         self.number += 1
         message = {"id": self.number, "method": method, "params": parameters}
-        if self.session:
-            message["sessionId"] = self.session
+        if self.tab:
+            message["sessionId"] = self.tab
         data = json.dumps(message).encode() + b"\0"
         while data:
             data = data[os.write(self.output, data):]
@@ -145,8 +190,16 @@ class Browser(Page):
     def navigate(self, address):
         self.call("Page.navigate", url=address)
 
+    @staticmethod
+    def gone(message):
+        """Whether a page did not answer because another came."""
+        return "navigated" in message
+
     def before_pages(self, script):
-        self.call("Page.addScriptToEvaluateOnNewDocument", source=script)
+        return self.call("Page.addScriptToEvaluateOnNewDocument", source=script)["identifier"]
+
+    def no_longer_before_pages(self, added):
+        self.call("Page.removeScriptToEvaluateOnNewDocument", identifier=added)
 
     def complaints(self):
         """What the browser logged: errors of scripts, violations of the policy."""
@@ -169,45 +222,46 @@ class Browser(Page):
     def resize(self, width, height):
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
 
-    def dark(self, on):
-        self.call("Emulation.setEmulatedMedia",
-                  features=[{"name": "prefers-color-scheme", "value": "dark" if on else "light"}])
+    def media(self, medium="", dark=False, reduced=False):
+        """What the page is shown on, and what its reader prefers."""
+        self.call("Emulation.setEmulatedMedia", media=medium, features=[
+            {"name": "prefers-color-scheme", "value": "dark" if dark else "light"},
+            {"name": "prefers-reduced-motion", "value": "reduce" if reduced else "no-preference"}])
 
-    def screenshot(self, path, whole=True):
-        answer = self.call("Page.captureScreenshot", captureBeyondViewport=whole)
-        with open(path, "wb") as file:
-            file.write(base64.b64decode(answer["data"]))
+    def captured(self, whole):
+        return self.call("Page.captureScreenshot", captureBeyondViewport=whole)["data"]
 
-    def place(self, selector):
-        """The middle of an element, scrolled into view, once it has stayed there for a frame."""
-        return self.run(f"""new Promise(resolve => {{
-            const element = document.querySelector({json.dumps(selector)});
-            const look = before => {{
-                element.scrollIntoView({{block: "center"}});
-                const box = element.getBoundingClientRect();
-                const middle = [box.left + box.width / 2, box.top + box.height / 2];
-                if (String(middle) === before)
-                    resolve(middle);
-                else
-                    requestAnimationFrame(() => look(String(middle)));
-            }};
-            look("");
-        }})""")
+    def pdf(self):
+        return base64.b64decode(self.call("Page.printToPDF")["data"])
+
+    def downloads(self, folder):
+        """Where files are saved from now on."""
+        self.call("Page.setDownloadBehavior", behavior="allow", downloadPath=folder)
+
+    def choose_files(self, selector, *paths):
+        root = self.call("DOM.getDocument")["root"]["nodeId"]
+        node = self.call("DOM.querySelector", nodeId=root, selector=selector)["nodeId"]
+        self.call("DOM.setFileInputFiles", nodeId=node, files=[str(path) for path in paths])
+
+    def unnamed(self):
+        """The roles of what is focusable and has no name for a screen reader; and how many have one."""
+        roles, named = [], 0
+        for node in self.call("Accessibility.getFullAXTree")["nodes"]:
+            properties = {item["name"]: item["value"].get("value") for item in node.get("properties", [])}
+            if properties.get("focusable") and node["role"]["value"] not in ("RootWebArea", "generic"):
+                if node.get("name", {}).get("value"):
+                    named += 1
+                else:
+                    roles.append(node["role"]["value"])
+        return roles, named
 
     def mouse(self, kind, x, y):
         self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", buttons=0 if kind == "mouseReleased" else 1,
                   clickCount=1)
 
-    def click(self, selector):
-        x, y = self.place(selector)
-        self.mouse("mousePressed", x, y)
-        self.mouse("mouseReleased", x, y)
-
-    def drag(self, selector, dx, dy):
-        x, y = self.place(selector)
-        self.mouse("mousePressed", x, y)
-        self.mouse("mouseMoved", x + dx, y + dy)
-        self.mouse("mouseReleased", x + dx, y + dy)
+    def touch(self, kind, *places):
+        """Of all fingers that are down, one after another, or none at the end."""
+        self.call("Input.dispatchTouchEvent", type=kind, touchPoints=[{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(places)])
 
     def drop(self, selector, path):
         """A file from outside of the browser. The page has to take it itself, else a browser with a window opens the file."""

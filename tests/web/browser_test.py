@@ -3,8 +3,9 @@
 
 usage: browser_test.py EXAMPLES_FOLDER_OF_THE_BUILD PAGE_NATIVE SOURCE_FOLDER [unittest's arguments]
 
-Builds the pages with examples/run web. Exit code: 77 without emscripten or chromium; without firefox-esr the rest is
-tested.
+Builds the pages with examples/run web. The browser is Chromium, with a selection in Firefox (firefox_pages.py); all is in
+Firefox with LIGHTING_TEST_BROWSER=firefox in the environment. Exit code: 77 without emscripten or the browser; without
+firefox-esr the rest is tested.
 """
 import base64
 import io
@@ -34,8 +35,9 @@ from firefox_pages import InFirefox
 from labs_pages import Accessible, Corpus, Labs, Verdicts
 from model_pages import Models
 from pixel_pages import Pixels
+from report_pages import Report
 from sharing_pages import Sharing, Working
-from pages import CONFIRM, EXAMPLES, RENDERER, SITE, SOURCE, Case, address, differences, make, native
+from pages import CONFIRM, EXAMPLES, IN_FIREFOX, RENDERER, SITE, SOURCE, Case, address, differences, make, native
 
 # Draws by a module of its own: no page in between.
 HARNESS = """(async () => {
@@ -146,6 +148,7 @@ def far_from_edges(one, other, width):
     return count
 
 
+@unittest.skipIf(IN_FIREFOX, "Chromium alone has SwiftShader")
 class SwiftShader(Case):
     """Another renderer: in highp at most one step off, edges apart."""
     options = browser.SWIFTSHADER
@@ -349,13 +352,11 @@ class Pages(Case):
         self.assertEqual(self.shown(), before)
         x, y = self.page.place("#picture")
         for kind, points in (("touchStart", [[0, 0]]), ("touchMove", [[40, 0]]), ("touchEnd", [])):
-            self.page.call("Input.dispatchTouchEvent", type=kind, touchPoints=[
-                {"x": x + dx, "y": y + dy, "id": i} for i, (dx, dy) in enumerate(points)])
+            self.page.touch(kind, *((x + dx, y + dy) for dx, dy in points))
         self.assert_native()
         self.assertIn("--orbit=-20,0", self.text("#command"))
         for kind, points in (("touchStart", [[-20, 0], [20, 0]]), ("touchMove", [[-40, 0], [40, 0]]), ("touchEnd", [])):
-            self.page.call("Input.dispatchTouchEvent", type=kind, touchPoints=[
-                {"x": x + dx, "y": y + dy, "id": i} for i, (dx, dy) in enumerate(points)])
+            self.page.touch(kind, *((x + dx, y + dy) for dx, dy in points))
         self.assert_native()
         self.assertRegex(self.text("#command"), "--orbit=-20,0,0.5")
 
@@ -515,7 +516,7 @@ class Pages(Case):
         first = self.page.new_tab()
         self.page.before_pages(CONFIRM)
         self.open("LightedCube")
-        second = self.page.session
+        second = self.page.tab
         try:
             self.choose("lecture/LightedCube.frag")
             self.edit("void main", "void /* second */ main")
@@ -613,6 +614,8 @@ class Pages(Case):
                 field.dispatchEvent(new Event("scroll"));
                 costs.push(performance.now() - start);
             }
+            for (let frame = 0; frame < 2; frame++) // Firefox scrolls to what is typed with the next
+                await new Promise(requestAnimationFrame);
             field.scrollTop = 5000 * (field.scrollHeight / 10001);
             field.dispatchEvent(new Event("scroll"));
             return costs.sort((a, b) => a - b)[4];
@@ -776,15 +779,9 @@ class Pages(Case):
 
     def test_the_picture_is_saved(self):
         with tempfile.TemporaryDirectory() as folder:
-            self.page.call("Page.setDownloadBehavior", behavior="allow", downloadPath=folder)
             for link in ("", "alpha&samples=4"):
                 self.open("SmoothFlat", link)
-                self.page.click("#save")
-                path = pathlib.Path(folder, "SmoothFlat.png")
-                deadline = time.monotonic() + browser.PATIENCE
-                while not path.exists():
-                    self.assertLess(time.monotonic(), deadline, "the picture is not saved")
-                    self.settle()
+                path = self.saved(folder, "#save", "SmoothFlat.png")
                 chunks, pixels = decode_png(path.read_bytes())
                 path.unlink()
                 arguments = ["--alpha", "--samples", "4"] if link else []
@@ -843,44 +840,31 @@ class Pages(Case):
 
     def test_a_browser_without_webgl(self):
         for kind in ("webgl2", "webgl"):
-            script = self.page.call("Page.addScriptToEvaluateOnNewDocument", source=f"""
+            with self.page.before(f"""
                 const real = HTMLCanvasElement.prototype.getContext;
                 HTMLCanvasElement.prototype.getContext = function (kind, ...more) {{
                     return kind.startsWith({json.dumps(kind)}) ? null : real.call(this, kind, ...more);
-                }};""")["identifier"]
-            try:
+                }};"""):
                 self.page.open(address("Materials"), "document.getElementById('error').textContent")
                 self.assertIn("WebGL 2: this browser gives none", self.text("#error"))
-            finally:
-                self.page.call("Page.removeScriptToEvaluateOnNewDocument", identifier=script)
 
     def test_a_module_that_cannot_start(self):
-        script = self.page.call("Page.addScriptToEvaluateOnNewDocument", source="""
-            WebAssembly.instantiate = () => Promise.reject(new RangeError("no memory"));""")["identifier"]
-        try:
+        with self.page.before("""
+            WebAssembly.instantiate = () => Promise.reject(new RangeError("no memory"));"""):
             self.page.open(address("Materials"), "document.getElementById('error').textContent")
             self.assertEqual(self.text("#error"), "This page cannot run: RangeError: no memory")
-        finally:
-            self.page.call("Page.removeScriptToEvaluateOnNewDocument", identifier=script)
 
     def test_blocked_storage(self):
-        script = self.page.call("Page.addScriptToEvaluateOnNewDocument", source="""
-            Object.defineProperty(window, "localStorage", {get() { throw new DOMException("blocked"); }});""")["identifier"]
-        try:
+        with self.page.before("""
+            Object.defineProperty(window, "localStorage", {get() { throw new DOMException("blocked"); }});"""):
             self.open("LightedCube")
             self.edit("diffuse,", "diffuse.bgr,")
             self.page.wait("document.querySelector('.said').textContent.includes('keeps nothing')")
-        finally:
-            self.page.call("Page.removeScriptToEvaluateOnNewDocument", identifier=script)
 
     def test_names_for_a_screen_reader_and_keys_alone(self):
         for name in ("Materials", "PointLightedSphere", "index"):
             self.open(name)
-            nodes = self.page.call("Accessibility.getFullAXTree")["nodes"]
-            for node in nodes:
-                properties = {item["name"]: item["value"].get("value") for item in node.get("properties", [])}
-                if properties.get("focusable") and node["role"]["value"] not in ("RootWebArea", "generic"):
-                    self.assertTrue(node.get("name", {}).get("value"), node)
+            self.assert_named(name)
             if name == "index":
                 continue
             reached = []
@@ -898,6 +882,28 @@ class Pages(Case):
         sizes = self.page.run("""[...document.querySelectorAll("input[type=checkbox]")].map(box =>
             Math.min(box.offsetWidth, box.offsetHeight))""")
         self.assertGreaterEqual(min(sizes), 24)
+
+    def test_nothing_moves_by_itself(self):
+        """For who prefers that: what plays does so by its button."""
+        self.addCleanup(self.page.media)
+        self.page.media(reduced=True)
+        for name in ("index", "labs", "precision", "LightedCube_animation", "chapter16", "lab01_diffuse"):
+            self.open(name)
+            self.page.run("for (const part of document.querySelectorAll('details')) part.open = true")
+            self.page.wait("typeof Book === 'undefined' || Book.book.figures.every(figure => !figure.inSight || figure.drawn === figure.key())")
+            moves = self.page.run("""(async () => {
+                const moving = [...document.querySelectorAll("*")].filter(part => {
+                    const {transitionDuration, animationName, scrollBehavior} = getComputedStyle(part);
+                    return transitionDuration !== "0s" || animationName !== "none" || scrollBehavior !== "auto";
+                }).map(part => part.tagName);
+                const seen = () => String([scrollY, document.body.innerText,
+                    ...[...document.querySelectorAll("canvas")].map(canvas => canvas.toDataURL())]);
+                const before = seen();
+                for (let frame = 0; frame < 10; frame++)
+                    await new Promise(requestAnimationFrame);
+                return [moving, document.getAnimations().length, seen() === before];
+            })()""")
+            self.assertEqual(moves, [[], 0, True], name)
 
     def test_narrow_pages(self):
         self.page.resize(360, 700)
@@ -965,7 +971,7 @@ class Pages(Case):
 
 # Those that take longest first.
 CLASSES = ["Parity", "Verdicts", "Corpus", "Book", "Accessible", "InFirefox", "Labs", "Pages", "Pixels", "Models", "Sharing", "Working",
-           "SwiftShader"]
+           "SwiftShader", "Report"]
 
 
 def run(name):

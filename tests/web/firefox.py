@@ -13,13 +13,63 @@ import time
 
 from browser import PATIENCE, Failed, Page
 
-# Else there is no WebGL by a software renderer, and no more of its name than "llvmpipe, or similar".
-PREFERENCES = {"webgl.force-enabled": True, "webgl.sanitize-unmasked-renderer": False}
+PREFERENCES = {
+    # Else there is no WebGL by a software renderer, and no more of its name than "llvmpipe, or similar".
+    "webgl.force-enabled": True, "webgl.sanitize-unmasked-renderer": False,
+    "dom.events.testing.asyncClipboard": True,  # a page reads the clipboard without asking
+    "dom.w3c_touch_events.enabled": 1,  # also without a touch screen
+    # A busy machine makes of a swipe or a tap no long one, and lets the page decide what a touch does.
+    "apz.content_response_timeout": 600000, "apz.max_tap_time": 600000, "ui.click_hold_context_menus.delay": 600000,
+}
+NEEDS = ("firefox-esr", "Xvfb")
 
 
 def missing():
     """Which of the programs that it needs is not there, or None."""
-    return next((tool for tool in ("firefox-esr", "Xvfb") if not shutil.which(tool)), None)
+    return next((tool for tool in NEEDS if not shutil.which(tool)), None)
+
+
+# https://www.w3.org/TR/webdriver2/#keyboard-actions
+KEYS = {"Tab": "\ue004", "Enter": "\ue007", "ArrowRight": "\ue014", "ArrowUp": "\ue013", "Home": "\ue011", "Escape": "\ue00c"}
+MODIFIERS = {2: "\ue009", 8: "\ue008"}  # as Chromium counts them: Control and Shift
+# The files that elements of the page loaded: the protocol tells of the network alone.
+LOADED = """window.loadedFiles = [];
+document.addEventListener("load", event => loadedFiles.push(event.target.src || event.target.href), true);"""
+# As the process of the window sees the page's tree, once the page's own process has sent it.
+UNNAMED = """(async () => {
+    const service = Cc["@mozilla.org/accessibilityService;1"].getService(Ci.nsIAccessibilityService);
+    const {selectedBrowser} = gBrowser, found = {};
+    const look = part => {
+        const state = {};
+        part.getState(state, {});
+        found.busy ||= state.value & Ci.nsIAccessibleStates.STATE_BUSY;
+        const role = service.getStringRole(part.role);
+        if (state.value & Ci.nsIAccessibleStates.STATE_FOCUSABLE && role !== "document" && role !== "internal frame")
+            if (part.name) found.named++; else found.roles.push(role);
+        for (let i = 0; i < part.childCount; i++)
+            look(part.getChildAt(i));
+    };
+    for (let before = ""; ; before = JSON.stringify(found)) {
+        await new Promise(done => setTimeout(done, 300));
+        Object.assign(found, {busy: 0, roles: [], named: 0});
+        const root = service.getAccessibleFor(selectedBrowser);
+        if (root)
+            look(root);
+        if (found.named && !found.busy && JSON.stringify(found) === before)
+            return before;
+    }
+})()"""
+
+
+def plain(value):
+    """As JSON has it, of what the protocol calls a remote value."""
+    kind, value = value["type"], value.get("value")
+    if kind in ("array", "nodelist", "htmlcollection"):
+        return [plain(part) for part in value]
+    if kind == "object":
+        return {key: plain(part) for key, part in value if part["type"] != "undefined"}
+    return value if kind in ("string", "boolean") else float(value) if kind == "number" and isinstance(value, str) else \
+        value if kind == "number" else {} if kind not in ("null", "undefined") else None
 
 
 class WebSocket:
@@ -99,14 +149,16 @@ class Firefox(Page):
         # It writes into the folder of its user, too, and with MOZ_HEADLESS has no WebGL.
         usual = {name: value for name, value in os.environ.items() if not name.startswith(("MOZ_", "XDG_"))}
         self.processes.append(subprocess.Popen(
-            ["firefox-esr", "--no-remote", "--profile", profile, "--remote-debugging-port", "0", "about:blank"],
+            ["firefox-esr", "--no-remote", "--remote-allow-system-access", "--profile", profile, "--remote-debugging-port", "0", "about:blank"],
             stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
             env={**usual, "HOME": self.folder, "DISPLAY": name, "GDK_BACKEND": "x11"}))
         address = self.address(profile / "WebDriverBiDiServer.json")
         self.socket = WebSocket(address["ws_host"], address["ws_port"], "/session")
         self.call("session.new", capabilities={})
-        self.call("session.subscribe", events=["log.entryAdded"])
-        self.context = self.call("browsingContext.getTree")["contexts"][0]["context"]
+        self.call("session.subscribe", events=["log.entryAdded", "network.beforeRequestSent"])
+        self.tab = self.call("browsingContext.getTree")["contexts"][0]["context"]
+        self.window = self.call("browsingContext.getTree", **{"moz:scope": "chrome"})["contexts"][0]["context"]
+        self.before_pages(LOADED)
         self.resize(1280, 900)
 
     def address(self, path):
@@ -141,19 +193,46 @@ class Firefox(Page):
                 return answer["result"]
             self.events.append(answer)
 
-    def run(self, script):
-        """The value of an expression, a promise's too."""
-        answer = self.call("script.evaluate", expression=f"(async () => JSON.stringify(await ({script})))()",
-                           target={"context": self.context}, awaitPromise=True, userActivation=True)
+    def evaluate(self, script, context):
+        answer = self.call("script.evaluate", expression=script, target={"context": context}, awaitPromise=True,
+                           userActivation=True, resultOwnership="none")
         if "exceptionDetails" in answer:
             raise Failed(answer["exceptionDetails"]["text"])
-        return json.loads(answer["result"].get("value", "null"))
+        return plain(answer["result"])
+
+    def run(self, script):
+        """The value of an expression, a promise's too."""
+        return self.evaluate(script, self.tab)
+
+    def of_window(self, script):
+        """The same of the browser's own window, whose scripts may do what its user can."""
+        return self.evaluate(script, self.window)
 
     def navigate(self, address):
-        self.call("browsingContext.navigate", context=self.context, url=address, wait="complete")
+        self.call("browsingContext.navigate", context=self.tab, url=address, wait="complete")
+
+    @staticmethod
+    def gone(message):
+        return "AbortError" in message or "no such frame" in message or "Actor" in message
 
     def before_pages(self, script):
-        self.call("script.addPreloadScript", functionDeclaration="() => {" + script + "}")
+        return self.call("script.addPreloadScript", functionDeclaration="() => {" + script + "}")["script"]
+
+    def no_longer_before_pages(self, added):
+        self.call("script.removePreloadScript", script=added)
+
+    def new_tab(self):
+        before = self.tab
+        self.tab = self.call("browsingContext.create", type="tab")["context"]
+        self.resize(1280, 900)
+        return before
+
+    def bring_to_front(self):
+        self.call("browsingContext.activate", context=self.tab)
+
+    def close_tab(self, then):
+        self.call("browsingContext.close", context=self.tab)
+        self.show_tab(then)
 
     def complaints(self):
         """What it logged: errors of scripts, violations of the policy, what a script calls an error."""
@@ -161,5 +240,82 @@ class Firefox(Page):
         return [event["params"]["text"] for event in self.events
                 if event.get("method") == "log.entryAdded" and event["params"]["level"] == "error"]
 
+    def requests(self):
+        """The addresses that were asked for, of files those that came."""
+        files = self.run("loadedFiles.filter(file => file)")
+        return files + [event["params"]["request"]["url"] for event in self.events if event.get("method") == "network.beforeRequestSent"]
+
     def resize(self, width, height):
-        self.call("browsingContext.setViewport", context=self.context, viewport={"width": width, "height": height})
+        self.call("browsingContext.setViewport", context=self.tab, viewport={"width": width, "height": height})
+
+    def media(self, medium="", dark=False, reduced=False):
+        self.of_window(f"""{{
+            const {{browsingContext}} = gBrowser.selectedBrowser;
+            browsingContext.mediumOverride = {json.dumps(medium)};
+            browsingContext.prefersColorSchemeOverride = {json.dumps("dark" if dark else "light")};
+            Services.prefs.setIntPref("ui.prefersReducedMotion", {int(reduced)});
+        }}""")
+        seen = [f"matchMedia('(prefers-reduced-motion: reduce)').matches === {json.dumps(reduced)}", f"matchMedia('{medium or 'screen'}').matches"]
+        if not medium:  # paper is light
+            seen.append(f"matchMedia('(prefers-color-scheme: dark)').matches === {json.dumps(dark)}")
+        self.wait(" && ".join(seen))
+
+    def captured(self, whole):
+        return self.call("browsingContext.captureScreenshot", context=self.tab, origin="document" if whole else "viewport")["data"]
+
+    def pdf(self):
+        return base64.b64decode(self.call("browsingContext.print", context=self.tab)["data"])
+
+    def downloads(self, folder):
+        self.call("browser.setDownloadBehavior", downloadBehavior={"type": "allowed", "destinationFolder": folder})
+
+    def choose_files(self, selector, *paths):
+        found = self.call("browsingContext.locateNodes", context=self.tab, locator={"type": "css", "value": selector})["nodes"]
+        self.call("input.setFiles", context=self.tab, element={"sharedId": found[0]["sharedId"]}, files=[str(path) for path in paths])
+
+    def unnamed(self):
+        found = json.loads(self.of_window(UNNAMED))
+        return found["roles"], found["named"]
+
+    def perform(self, source, *actions):
+        self.call("input.performActions", context=self.tab, actions=[{**source, "actions": list(actions)}])
+
+    def mouse(self, kind, x, y):
+        press = {"mousePressed": "pointerDown", "mouseReleased": "pointerUp"}
+        self.perform({"type": "pointer", "id": "mouse"}, {"type": "pointerMove", "x": x, "y": y},
+                     *([{"type": press[kind], "button": 0}] if kind in press else []))
+
+    def touch(self, kind, *places):
+        """As if the display were touched."""
+        if places:
+            self.fingers = places
+        self.of_window(f"""(() => {{
+            const box = gBrowser.selectedBrowser.getBoundingClientRect();
+            const state = windowUtils.{"TOUCH_CONTACT" if places else "TOUCH_REMOVE"};
+            for (const [finger, [x, y]] of {json.dumps(self.fingers)}.entries())
+                windowUtils.sendNativeTouchPoint(finger, state, mozInnerScreenX + box.left + x, mozInnerScreenY + box.top + y, 1, 0);
+        }})()""")
+        self.run("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(1))))")
+
+    def drop(self, selector, path):
+        """A file from outside of the browser, which a field that is there for a moment reads."""
+        self.run("document.body.append(Object.assign(document.createElement('input'), {type: 'file', id: 'from-outside'}))")
+        self.choose_files("#from-outside", path)
+        taken = self.run(f"""(() => {{
+            const field = document.getElementById("from-outside"), dataTransfer = new DataTransfer();
+            dataTransfer.items.add(field.files[0]);
+            field.remove();
+            return ["dragenter", "dragover", "drop"].map(kind => !document.querySelector({json.dumps(selector)}).dispatchEvent(
+                new DragEvent(kind, {{dataTransfer, bubbles: true, cancelable: true, composed: true}})));
+        }})()""")
+        if not all(taken[1:]):
+            raise Failed(f"{selector}: a dropped file is opened instead of the page")
+
+    def type(self, text):
+        self.run(f"document.execCommand('insertText', false, {json.dumps(text)})")
+
+    def key(self, key, modifiers=0):
+        held = [MODIFIERS[bit] for bit in MODIFIERS if modifiers & bit]
+        self.perform({"type": "key", "id": "keys"}, *({"type": "keyDown", "value": name} for name in held),
+                     *({"type": kind, "value": KEYS.get(key, key)} for kind in ("keyDown", "keyUp")),
+                     *({"type": "keyUp", "value": name} for name in held))

@@ -183,15 +183,16 @@ class Accessible(OfLabs):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        cls.page.open(AXE, "true")
-        text = cls.page.run("document.body ? document.body.textContent : ''")
-        found = re.search(r"`/\*! axe v(?:[^`\\]|\\.)*`", text, re.DOTALL)
-        cls.axe = cls.page.run(found.group(0)) if found else ""
+        with browser.Browser() as chromium:
+            chromium.open(AXE, "true")
+            text = chromium.run("document.body ? document.body.textContent : ''")
+            found = re.search(r"`/\*! axe v(?:[^`\\]|\\.)*`", text, re.DOTALL)
+            cls.axe = chromium.run(found.group(0)) if found else ""
         if not cls.axe:
             print("not checked: what axe-core finds on the pages, because this Chromium has none")
 
     def tearDown(self):
-        self.page.dark(False)
+        self.page.media()
         super().tearDown()
 
     def assert_accessible(self, *what):
@@ -201,7 +202,7 @@ class Accessible(OfLabs):
         self.page.run(self.axe + "\n;0")
         for dark in (False, True):
             for width in (1280, 360):
-                self.page.dark(dark)
+                self.page.media(dark=dark)
                 self.page.resize(width, 900)
                 with self.subTest(*what, dark=dark, width=width):
                     self.assertEqual(self.page.run(WRONG), [])
@@ -209,10 +210,7 @@ class Accessible(OfLabs):
     def assert_narrow_and_named(self, name):
         self.assertLessEqual(self.page.run("document.documentElement.scrollWidth"), 360, name)
         self.assertEqual(self.page.complaints(), [])
-        for node in self.page.call("Accessibility.getFullAXTree")["nodes"]:
-            properties = {item["name"]: item["value"].get("value") for item in node.get("properties", [])}
-            if properties.get("focusable") and node["role"]["value"] not in ("RootWebArea", "generic"):
-                self.assertTrue(node.get("name", {}).get("value"), (name, node["role"]))
+        self.assert_named(name)
 
     def nonsense(self):
         """In the editor, which then lists errors; not kept."""
@@ -413,13 +411,7 @@ class Labs(OfLabs):
         self.page.run("document.getElementById('student').focus()")
         self.page.type("Ada <b> ../Lovelace")
         with tempfile.TemporaryDirectory() as folder:
-            self.page.call("Page.setDownloadBehavior", behavior="allow", downloadPath=folder)
-            self.page.click("#hand-in")
-            path = pathlib.Path(folder, "Ada_b_.._Lovelace-lab05.zip")
-            deadline = time.monotonic() + browser.PATIENCE
-            while not path.exists():
-                self.assertLess(time.monotonic(), deadline, os.listdir(folder))
-                self.settle()
+            self.saved(folder, "#hand-in", "Ada_b_.._Lovelace-lab05.zip")
             results = os.path.join(folder, "results")
             subprocess.run([CHECK, "--class", folder, "--lab", "5", "-o", results], check=True, stdout=subprocess.DEVNULL,
                            stderr=subprocess.DEVNULL)
@@ -474,7 +466,7 @@ class Labs(OfLabs):
         """One edits the vertex shader, the other the fragment shader: both have both."""
         first = self.page.new_tab()
         self.open(mistakes.NAMES[5])
-        second = self.page.session
+        second = self.page.tab
         try:
             self.put({"lab05.frag": SOLUTION["lab05.frag"]})
             self.page.show_tab(first)
@@ -529,21 +521,15 @@ class Labs(OfLabs):
             self.page.open(pathlib.Path(SITE, "labs.html").as_uri())
             self.assertEqual(self.text("[data-lab=lab05_per_fragment]"), "")
             self.assertEqual(self.page.complaints(), [])
-        script = self.page.call("Page.addScriptToEvaluateOnNewDocument", source="""
-            Object.defineProperty(window, "localStorage", {get() { throw new DOMException("blocked"); }});""")["identifier"]
-        try:
+        with self.page.before("""
+            Object.defineProperty(window, "localStorage", {get() { throw new DOMException("blocked"); }});"""):
             self.open(mistakes.NAMES[1])
             self.put({"lab01.frag": "x"})
             self.page.wait("document.querySelector('.said').textContent.includes('keeps nothing')")
-        finally:
-            self.page.call("Page.removeScriptToEvaluateOnNewDocument", identifier=script)
 
     def test_a_browser_without_webgl(self):
-        script = self.page.call("Page.addScriptToEvaluateOnNewDocument", source="""
-            window.OffscreenCanvas = undefined; window.Worker = class { constructor() { throw "no workers"; } };""")["identifier"]
-        try:
+        with self.page.before("""
+            window.OffscreenCanvas = undefined; window.Worker = class { constructor() { throw "no workers"; } };"""):
             self.page.open(pathlib.Path(SITE, "lab01_diffuse.html").as_uri(),
                            "document.getElementById('error').textContent")
             self.assertIn("This page cannot run: no workers", self.text("#error"))
-        finally:
-            self.page.call("Page.removeScriptToEvaluateOnNewDocument", identifier=script)

@@ -7,10 +7,18 @@ import shlex
 import shutil
 import subprocess
 import sys
+import time
 import unittest
 
 import browser
+import firefox
 
+# The one that all tests drive, but those of firefox_pages.py.
+BROWSER = os.environ.get("LIGHTING_TEST_BROWSER", "chromium")
+assert BROWSER in ("chromium", "firefox"), f"LIGHTING_TEST_BROWSER={BROWSER}: must be chromium or firefox"
+IN_FIREFOX = BROWSER == "firefox"
+# Firefox makes desktop OpenGL of the shaders, which has no mediump: what it draws is natively that of highp.
+MORE = ("--precision=highp",) if IN_FIREFOX else ()
 EXAMPLES, PAGE_NATIVE, SOURCE = (os.path.abspath(path) for path in sys.argv[1:4])
 SITE = os.environ.get("SITE") or os.path.join(os.path.dirname(EXAMPLES), "pages")
 
@@ -24,7 +32,7 @@ CONFIRM = "window.asked = []; window.confirm = text => { asked.push(text); retur
 
 def make():
     """Builds the pages with examples/run web; 0, or what a test exits with."""
-    for tool in ("emcc", "chromium", "pyftsubset"):
+    for tool in ("emcc", "chromium", "pyftsubset", *(firefox.NEEDS if IN_FIREFOX else ())):
         if not shutil.which(tool):
             print(f"{tool}: not found; the pages are not tested")
             return 77
@@ -37,8 +45,8 @@ def address(name, link=""):
 
 
 def native(name, arguments):
-    """Rows of red, green, blue."""
-    return subprocess.run([os.path.join(EXAMPLES, name), *arguments, "-o", "-", "--format", "rgb"], check=True,
+    """Rows of red, green, blue, as the browser is to draw."""
+    return subprocess.run([os.path.join(EXAMPLES, name), *arguments, *MORE, "-o", "-", "--format", "rgb"], check=True,
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE).stdout
 
 
@@ -56,7 +64,7 @@ class Case(unittest.TestCase):
 
     @classmethod
     def start(cls):
-        return browser.Browser(*cls.options)
+        return firefox.Firefox() if IN_FIREFOX else browser.Browser(*cls.options)
 
     @classmethod
     def setUpClass(cls):
@@ -97,6 +105,16 @@ class Case(unittest.TestCase):
         })()"""))
         return data
 
+    def saved(self, folder, button, name):
+        """The whole file that a button saves."""
+        self.page.downloads(folder)
+        self.page.click(button)
+        path, deadline = pathlib.Path(folder, name), time.monotonic() + browser.PATIENCE
+        while not path.exists() or not path.stat().st_size or list(path.parent.glob("*.part")):  # as Firefox names what is not whole
+            self.assertLess(time.monotonic(), deadline, f"{name} is not saved: {os.listdir(folder)}")
+            time.sleep(0.05)
+        return path
+
     def settle(self):
         """After what was scheduled for the next frame."""
         self.page.run("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(1))))")
@@ -116,6 +134,12 @@ class Case(unittest.TestCase):
                 result = self.page.run(f"""ErrorWorker.compute({{compiled: Page.page.compiled, texts: new Map(),
                     lines: {json.dumps(line.split())}, seconds: 0, orbit: [0, 0, 1]}}).then(r => r.error || r)""")
                 self.assertEqual(result, json.loads(answer))
+
+    def assert_named(self, name):
+        """What is focusable has a name for a screen reader."""
+        unnamed, named = self.page.unnamed()
+        self.assertEqual(unnamed, [], name)
+        self.assertGreater(named, 0, name)
 
     def programs(self):
         return self.page.run("Page.page.engine.json('programs')")
