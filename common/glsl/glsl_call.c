@@ -97,68 +97,70 @@ static void settle_call(Parser *parser, int node, int type, bool constant)
         fold(parser->tree, node);
 }
 
-const char *replacement_for(const Parser *parser, const char *name)
-{
+/* What to write instead of words of other languages. */
 #define DERIVATIVES "write #extension GL_OES_standard_derivatives : enable first"
 #define SHADOW "take a sampler2D, and compare the depth that texture2D returns with the point's own"
 #define TEXTURE "write texture2D(sampler, point)"
 #define UNIFORM "compute it in the program, and pass it as a uniform"
 #define EXP "write it with exp"
-    static const char *const WORDS[][2] = {
-        {"inverse", UNIFORM},
-        {"determinant", UNIFORM},
-        {"transpose", "write vector * matrix instead of transpose(matrix) * vector"},
-        {"texture", TEXTURE},
-        {"textureLod", TEXTURE},
-        {"texelFetch", TEXTURE},
-        {"tex2D", TEXTURE},
-        {"textureSize", "pass the size as a uniform"},
-        {"saturate", "write clamp(x, 0.0, 1.0)"},
-        {"lerp", "write mix(a, b, x)"},
-        {"frac", "write fract(x)"},
-        {"round", "write floor(x + 0.5)"},
-        {"trunc", "write sign(x) * floor(abs(x))"},
-        {"mul", "write matrix * vector"},
-        {"fma", "write a * b + c"},
-        {"sinh", EXP},
-        {"cosh", EXP},
-        {"tanh", EXP},
-        {"isnan", "write x != x"},
-        {"fmod", "write mod(x, y)"},
-        {"atan2", "write atan(y, x)"},
-        {"rsqrt", "write inversesqrt(x)"},
-        {"fabs", "write abs(x)"},
-        {"powf", "write pow(x, y)"},
-        {"dFdx", DERIVATIVES},
-        {"dFdy", DERIVATIVES},
-        {"fwidth", DERIVATIVES},
-        {"float2", "write vec2"},
-        {"float3", "write vec3"},
-        {"float4", "write vec4"},
-        {"float3x3", "write mat3"},
-        {"float4x4", "write mat4"},
-        {"double", "write float"},
-        {"half", "write mediump float"},
-        {"long", "write int"},
-        {"short", "write int"},
-        {"unsigned", "write int"},
-        {"uint", "write int"},
-        {"layout", "remove it and its parentheses"},
-        {"static", "remove it"},
-        {"inline", "remove it"},
-        {"switch", "write if and else"},
-        {"goto", "write a loop"},
-        {"sampler2DShadow", SHADOW},
-        {"sampler3D", "there are sampler2D and samplerCube"},
-    };
+static const char *const REPLACEMENTS[][2] = {
+    {"inverse", UNIFORM},
+    {"determinant", UNIFORM},
+    {"transpose", "write vector * matrix instead of transpose(matrix) * vector"},
+    {"texture", TEXTURE},
+    {"textureLod", TEXTURE},
+    {"texelFetch", TEXTURE},
+    {"tex2D", TEXTURE},
+    {"textureSize", "pass the size as a uniform"},
+    {"saturate", "write clamp(x, 0.0, 1.0)"},
+    {"lerp", "write mix(a, b, x)"},
+    {"frac", "write fract(x)"},
+    {"round", "write floor(x + 0.5)"},
+    {"trunc", "write sign(x) * floor(abs(x))"},
+    {"mul", "write matrix * vector"},
+    {"fma", "write a * b + c"},
+    {"sinh", EXP},
+    {"cosh", EXP},
+    {"tanh", EXP},
+    {"isnan", "write x != x"},
+    {"fmod", "write mod(x, y)"},
+    {"atan2", "write atan(y, x)"},
+    {"rsqrt", "write inversesqrt(x)"},
+    {"fabs", "write abs(x)"},
+    {"powf", "write pow(x, y)"},
+    {"dFdx", DERIVATIVES},
+    {"dFdy", DERIVATIVES},
+    {"fwidth", DERIVATIVES},
+    {"float2", "write vec2"},
+    {"float3", "write vec3"},
+    {"float4", "write vec4"},
+    {"float3x3", "write mat3"},
+    {"float4x4", "write mat4"},
+    {"double", "write float"},
+    {"half", "write mediump float"},
+    {"long", "write int"},
+    {"short", "write int"},
+    {"unsigned", "write int"},
+    {"uint", "write int"},
+    {"layout", "remove it and its parentheses"},
+    {"static", "remove it"},
+    {"inline", "remove it"},
+    {"switch", "write if and else"},
+    {"goto", "write a loop"},
+    {"sampler2DShadow", SHADOW},
+    {"sampler3D", "there are sampler2D and samplerCube"},
+};
+
+const char *replacement_for(const Parser *parser, const char *name)
+{
     const bool vertex = parser->tree->stage == GLSL_VERTEX;
     if (strcmp(name, "in") == 0)
         return vertex ? "write attribute" : "write varying";
     if (strcmp(name, "out") == 0)
         return vertex ? "write varying" : "set gl_FragColor";
-    for (size_t i = 0; i < sizeof WORDS / sizeof WORDS[0]; i++)
-        if (strcmp(WORDS[i][0], name) == 0)
-            return WORDS[i][1];
+    for (size_t i = 0; i < sizeof REPLACEMENTS / sizeof REPLACEMENTS[0]; i++)
+        if (strcmp(REPLACEMENTS[i][0], name) == 0)
+            return REPLACEMENTS[i][1];
     return NULL;
 }
 

@@ -676,7 +676,7 @@ class Results(Class):
         limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (64 << 20,) * 2)
         lines = self.lab5(code=1, preexec_fn=limit)
         self.assertEqual([re.sub(r"^check: [ab]: ", "", line) for line in lines], [
-            "error: judging failed: EGL: the limit of memory is 64 MB (ulimit -v): raise it to 512"] * 2 + [
+            "error: judging failed: EGL: the limit of memory is 64 MB (ulimit -v): raise it to 1024"] * 2 + [
             "check: 2 of 2 could not be judged, which is no fault of theirs; the same command tries them again"])
         self.assertEqual(self.lab5(), [])
         self.assertEqual(self.verdicts(), {"a": "right", "b": "right"})

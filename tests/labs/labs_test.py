@@ -144,9 +144,6 @@ def share(counts, total):
     return counts["named"] / total if total else 1.0
 
 
-# Of lab 10, and of mistakes that take a diagnosis: seconds of processor time for each.
-
-
 class Labs(base.Case):
     def folder_of(self, lab, kind="solutions"):
         kinds = {"starter": EXAMPLES, "solutions": mistakes.SOLUTIONS}
