@@ -163,26 +163,38 @@ static bool take(Ply *ply, Type type, double *number)
     return true;
 }
 
-/* The numbers of a row by their roles, and its corners. */
-static bool take_row(Ply *ply, const Element *element)
+/* Why there is no number to be taken. */
+static const char *what_is_missing(const Ply *ply)
+{
+    const char *word = ply->next + strspn(ply->next, BLANKS);
+    const bool cut = !ply->words || word + strcspn(word, BLANKS) >= ply->end;
+    return cut ? "the file ends" : "there is no number";
+}
+
+/* The numbers of a row by their roles, and its corners; returns what is wrong, or NULL. */
+static const char *take_row(Ply *ply, const Element *element)
 {
     ply->corner_count = 0;
     for (int i = 0; i < element->count; i++) {
         const Property *property = &ply->properties[element->first + i];
         double length = 1, number = 0;
         if (property->length.bytes && !take(ply, property->length, &length))
-            return false;
+            return what_is_missing(ply);
+        if (length < 0)
+            return "a list has a negative length";
         for (double k = 0; k < length; k++) {
             if (!take(ply, property->type, &number))
-                return false;
-            if (property->role == CORNERS)
+                return what_is_missing(ply);
+            if (property->role == CORNERS) {
+                const uint32_t corner = number >= 0 && number < NO_VERTEX ? (uint32_t)number : 0;
                 *(uint32_t *)memory_add(&ply->corners, &ply->corner_count, &ply->corner_room,
                                         sizeof *ply->corners) =
-                    number >= 0 && number < NO_VERTEX ? (uint32_t)number : NO_VERTEX;
+                    (double)corner == number ? corner : NO_VERTEX;
+            }
         }
         ply->values[property->role] = number * property->scale;
     }
-    return true;
+    return NULL;
 }
 
 /* Elements */
@@ -253,13 +265,10 @@ static bool read_element(Ply *ply, const Element *element)
     if (vertices && !open_mesh(ply, element))
         return false;
     for (size_t row = 0; row < element->rows && element->count > 0; row++) {
-        if (!take_row(ply, element)) {
-            const char *word = ply->next + strspn(ply->next, BLANKS);
-            const bool cut = !ply->words || word + strcspn(word, BLANKS) >= ply->end;
-            return message_set(ply->reason, "%s within %s %zu of %zu",
-                               cut ? "the file ends" : "there is no number", element->name, row + 1,
-                               element->rows);
-        }
+        const char *wrong = take_row(ply, element);
+        if (wrong)
+            return message_set(ply->reason, "%s within %s %zu of %zu", wrong, element->name,
+                               row + 1, element->rows);
         if (vertices)
             set_vertex(ply, row);
         else if (faces && !add_faces(ply, strips))

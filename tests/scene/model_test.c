@@ -514,8 +514,10 @@ TEST(invalid_models_are_rejected)
     static const char ply[] = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
                               "property float y\nproperty float z\nelement face 1\n"
                               "property list uchar int vertex_indices\nend_header\n";
-    char range_ply[512], count_ply[512];
-    snprintf(range_ply, sizeof range_ply, "%s0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n", ply);
+    static const char *const faces[] = {"3 0 1 7", "3 0 1 1.5", "-3 0 1 2"};
+    char face_ply[3][512], count_ply[512];
+    for (int i = 0; i < 3; i++)
+        snprintf(face_ply[i], 512, "%s0 0 0\n1 0 0\n0 1 0\n%s\n", ply, faces[i]);
     snprintf(count_ply, sizeof count_ply, "%s0 0 0\n1 0 0\n", ply);
     const struct {
         const char *name, *content, *reason;
@@ -529,7 +531,9 @@ TEST(invalid_models_are_rejected)
         {"range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", ": cannot read: "},
         {"below.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4\n", ": cannot read: "},
         {"huge.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4294967297\n", ": cannot read: "},
-        {"range.ply", range_ply, ": cannot read: a face names a vertex that is none of the 3"},
+        {"range.ply", face_ply[0], ": cannot read: a face names a vertex that is none of the 3"},
+        {"between.ply", face_ply[1], ": cannot read: a face names a vertex that is none of the 3"},
+        {"negative.ply", face_ply[2], ": cannot read: a list has a negative length within face 1"},
         {"endless.ply", "ply\nformat ascii 1.0\nelement vertex 3\n", ": cannot read: its header"},
         {"count.ply", count_ply, ": "},
         {"faceless.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", ": "},
