@@ -200,10 +200,10 @@ class Judges(unittest.TestCase):
         self.check("programs", programs())
 
     def test_submissions(self):
-        self.check("corpus", list(submissions())[:: 1 if LONG else 6])
+        self.check("corpus", list(submissions())[:: 1 if LONG else 12])
 
     def test_random_programs(self):
-        self.check("random", self.random_programs(4000 if LONG else 150), 0.97)
+        self.check("random", self.random_programs(4000 if LONG else 80), 0.97)
 
     def random_programs(self, count):
         for i in range(count):
@@ -214,7 +214,7 @@ class Judges(unittest.TestCase):
     def test_mutations(self):
         originals = programs() + [pair for pair in submissions()][::7]
         originals += list(self.random_programs(200))
-        count = 6000 if LONG else 200
+        count = 6000 if LONG else 100
         texts = []
         for i in range(count):
             name, text = originals[i * 7919 % len(originals)]

@@ -302,6 +302,7 @@ class Surveys(Study):
         self.wrong(2, "b: not an option", "b")
         self.wrong(1, "none/results.csv: has no results", "--compare", "none", "accuracy")
 
+    @base.in_long_form
     def test_existing_rows_are_not_measured_again(self):
         self.survey()
         before = self.read("accuracy/results.csv")

@@ -635,6 +635,7 @@ class Sizes(Case):
                 wait_for(lambda: shown.place()[2:] == (width, height), "the size")
                 self.assert_shown(shown)
 
+    @base.in_long_form
     def test_sizes_to_begin_with(self):
         for size in ((1, 1), (700, 2), (1700, 900)):
             shown = self.show("-s", "%dx%d" % size, paused=True)
