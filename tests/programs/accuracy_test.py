@@ -83,9 +83,8 @@ class Surveys(Study):
         self.assertRegex(text, r"\nmediump:\n  object 1: at most .* of them from .*triangles in \d+ pieces")
         self.assertIn("Assumed: the errors that were measured of ", text)
         self.assertEqual(self.everything(), {})
-        if base.LONG:  # prove_test has ranges of cameras, too
-            text = self.accuracy("--prove", "sphere", "-s", "100x100", "--cameras", "-1:1,0:0.5")
-            self.assertRegex(text, r"object 1: at most [0-9.]+ steps .*, near --orbit ")
+        text = self.accuracy("--prove", "sphere", "-s", "100x100", "--cameras", "-1:1,0:0.5")
+        self.assertRegex(text, r"object 1: at most [0-9.]+ steps .*, near --orbit ")
         self.wrong(2, "--cameras: goes with --prove", "--cameras", "0:1,0:1")
         for bad in "0:1", "1:0,0:1", "0:1,0:1,0:1", "0:1,0:1x", "0:nan,0:1":
             self.wrong(2, f"--cameras {bad}: must be ranges", "--prove", "sphere", "--cameras", bad)
@@ -197,7 +196,7 @@ class Surveys(Study):
     def test_pictures_are_for_terminals_with_colours_and_room(self):
         printed = self.survey()
         self.assertNotIn("\u2580", printed)
-        for columns, more in ((80, {"NO_COLOR": "1"}), (59, {}), (80, {"TERM": "dumb"}))[:3 if base.LONG else 2]:
+        for columns, more in ((80, {"NO_COLOR": "1"}), (59, {}), (80, {"TERM": "dumb"})):
             _, text, said = self.on_screen(columns, **more)
             self.assertNotIn("\x1b", said)
             self.assertEqual([line[:34] for line in text.split("\n")][1:6], [line[:34] for line in printed.split("\n")][1:6])
@@ -313,17 +312,15 @@ class Surveys(Study):
                      "model | s |", "setting | ns |", "scene | shadows |"):
             self.assertRegex(text, rf"\n\| {re.escape(head)}.*\n\|---")
         self.assertRegex(text, r"\n\| cube \| 0\.50 \| [\d.]+ \|")
-        if base.LONG:
-            self.accuracy("--scene", "cube", "--fresh", "--seed", "7", *QUICK)
-            self.assertEqual({row["seed"] for row in self.rows()}, {"7"})
+        self.accuracy("--scene", "cube", "--fresh", "--seed", "7", *QUICK)
+        self.assertEqual({row["seed"] for row in self.rows()}, {"7"})
 
     @base.in_long_form
     def test_broken_rows_are_named_and_measured_again(self):
         self.survey()
         lines = self.read("accuracy/results.csv").splitlines(keepends=True)
         taken = self.rows()[0]["time"].encode()  # by the usual setting, the measure of all
-        if base.LONG:
-            lines[1] = lines[1].replace(b"," + taken + b",", b",,", 1)
+        lines[1] = lines[1].replace(b"," + taken + b",", b",,", 1)
         lines[3] = lines[3].replace(b",", b";")
         lines[-1] = lines[-1][:40]  # cut, as by a full disk
         self.make("accuracy/results.csv", b"".join(lines))
@@ -339,16 +336,15 @@ class Surveys(Study):
         rows = [row for row in self.rows() if row["threads"]]  # the last column
         # 13 of the 15 were whole. Times are relative to the usual setting's: without it all are
         # measured again.
-        self.assertEqual([row["time"] == "" for row in rows],
-                         [True] + (12 + 15) * [False] if base.LONG else 15 * [False])
+        self.assertEqual([row["time"] == "" for row in rows], [True] + (12 + 15) * [False])
 
     @base.in_long_form
     def test_an_interrupted_survey_goes_on(self):
-        """Twice, in the long form; to the end: test_killed_parts_go_on, and from broken rows."""
+        """Twice; to the end: test_killed_parts_go_on, and from broken rows."""
         command = [os.path.join(base.EXAMPLES, "accuracy"), "--scene", "shiny8", "-s", "32x32"]
         path = self.path("accuracy/results.csv")
         before = b"-" * 500
-        for again in (False, True)[::base.step(2)]:
+        for again in (False, True):
             process = subprocess.Popen(command, cwd=self.folder, stdout=subprocess.PIPE,
                                        stderr=subprocess.PIPE, env={**os.environ, **self.own})
             deadline = time.monotonic() + base.PATIENCE
@@ -401,7 +397,7 @@ class Surveys(Study):
         self.make("parts/results-1-of-3.csv", head)
         self.wrong(1, "parts: has parts of . and of .; remove", *draw, "--fresh")
 
-    @unittest.skipUnless(base.LONG, "the long form: takes half a minute")
+    @base.in_long_form
     def test_killed_parts_go_on(self):
         self.survey()
         dice = random.Random(int(os.environ.get("LIGHTING_TEST_SEED", 1)))
@@ -566,7 +562,7 @@ class Choices(Study):
     @base.in_long_form
     def test_error_keeps_the_options_that_are_given(self):
         for more in (["--interpolation", "flat"], ["--interpolation", "phong"],
-                     ["--interpolation", "gouraud"], ["--precision", "mediump"])[::base.step(3)]:
+                     ["--interpolation", "gouraud"], ["--precision", "mediump"]):
             text = self.says(0, "view 0: ", "--error", "16", "-v", "-s", "50x50", *more,
                              program="ShadingModels", environment=self.own).stderr.decode()
             self.assertNotRegex(text, "lit per")

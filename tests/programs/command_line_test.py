@@ -414,7 +414,7 @@ class Options(Case):
     def test_osmesa_draws_what_egl_draws(self):
         """In mediump too, which both compute in 16 bits."""
         self.need_osmesa()
-        for precision in ("highp", "mediump")[::step(2)]:
+        for precision in ("highp", "mediump"):
             for backend in "egl", "osmesa":
                 self.good(*SMALL, "-b", backend, "--precision", precision, "-o", backend,
                           program="gallery")
@@ -983,8 +983,7 @@ class Outputs(Case):
             os.close(reading)
             self.good(*SMALL, *arguments, program=program, stdout=writing)
             os.close(writing)
-            if arguments[0] != "--doctor" or LONG:
-                self.good(*SMALL, *arguments, program=program, shell="| head -n 1")
+            self.good(*SMALL, *arguments, program=program, shell="| head -n 1")
         self.assertEqual(self.everything(), {})
 
     def test_closed_streams_do_no_harm(self):
@@ -1775,8 +1774,8 @@ class Again(Case):
     @in_long_form
     @unittest.skipUnless(os.path.exists(MODULE), "without OpenImageIO")
     def test_exr_and_tiff_say_it_too(self):
-        for number, suffix in enumerate(("exr", "tif", "tiff")[:None if LONG else 2]):
-            for program in (self.DRAW + DIAGRAMS)[number::3] if LONG else ():
+        for number, suffix in enumerate(("exr", "tif", "tiff")):
+            for program in (self.DRAW + DIAGRAMS)[number::3]:
                 self.assert_again(program, *SMALL, "-t", "1.1", suffix=suffix)
             self.assert_again("Materials", *SMALL, "--material", "gold", "--alpha", suffix=suffix)
 
@@ -1875,14 +1874,14 @@ class Again(Case):
     @in_long_form
     @unittest.skipUnless(os.path.exists(MODULE), "without OpenImageIO")
     def test_a_date_is_that_of_source_date_epoch(self):
-        for suffix in ("exr", "tif")[::step(2)]:
+        for suffix in ("exr", "tif"):
             for epoch, date in (("86399", b"1970:01:01 23:59:59"), (None, b"1970:01:01 00:00:00"),
-                                ("4102444800", b"2100:01:01 00:00:00"))[::step(3)]:
+                                ("4102444800", b"2100:01:01 00:00:00")):
                 environment = {"SOURCE_DATE_EPOCH": epoch} if epoch else {}
                 self.good(*SMALL, "-o", "a." + suffix, environment=environment)
                 self.assertIn(date, self.read("a." + suffix))
             os.remove(self.path("a." + suffix))
-            for epoch in ("today", "", "-1", "253402300800", "1e3")[::step(5)]:
+            for epoch in ("today", "", "-1", "253402300800", "1e3"):
                 self.refused(1, "SOURCE_DATE_EPOCH=" + epoch, *SMALL, "-o", "a." + suffix,
                              environment={"SOURCE_DATE_EPOCH": epoch})
 

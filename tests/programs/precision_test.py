@@ -85,7 +85,7 @@ class Precision(base.Case):
         other = self.good("--doctor", program=PROGRAM, environment=cache).decode()
         self.assertIn("  precision        unknown: run precision once", other)
 
-    @unittest.skipUnless(base.LONG, "takes as long as the other one")
+    @base.in_long_form
     def test_text_is_a_screen_of_lines(self):
         text = self.precision(*FEW)
         lines = text.splitlines()

@@ -1123,7 +1123,7 @@ class Ends(Case):
     def test_random_input_does_no_harm(self):
         hands = random.Random(7)
         shown = self.show("-s", "200x200")
-        for _ in range(60 // base.step(3)):
+        for _ in range(60):
             match hands.randrange(4):
                 case 0:
                     shown.key(*hands.choices(("space", "r", "f", "Left", "Right", "Up", "Down", "h",

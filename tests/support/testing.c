@@ -29,10 +29,10 @@ int testing_run(int list, const char *name, CMFixtureFunction setup, CMFixtureFu
 int testing_step(int step)
 {
     const char *everything = getenv("LIGHTING_TEST_LONG"), *backend = getenv("LIGHTING_BACKEND");
-    const bool second = backend && strcmp(backend, "osmesa") == 0;
     if (everything && everything[0])
         return 1;
-    return getenv("ASAN_OPTIONS") || second ? 4 * step : 2 * step;
+    const bool few = getenv("ASAN_OPTIONS") || (backend && strcmp(backend, "osmesa") == 0);
+    return few ? 4 * step : 2 * step;
 }
 
 int testing_part(int count, int step)

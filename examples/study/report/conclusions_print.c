@@ -1,3 +1,7 @@
+/*
+ * The first screen of accuracy: lines of text with bars of characters, or, on a terminal with
+ * colours, cells that have a picture, too.
+ */
 #include "study/report/conclusions.h"
 
 #include "base/memory.h"

@@ -36,7 +36,7 @@ static const unsigned char *lightest(const Image *image, const int part[4], cons
     return found;
 }
 
-/* Of xterm's 256 colours: a cube of 6 values, 0, 95, 135, ... 255, or one of 24 greys, 8, 18, ...
+/* Of xterm's 256 colours: a cube of 6 values, 0, 95, 135 to 255, or one of 24 greys, 8, 18 to 238.
  */
 static int number_of(const unsigned char color[3])
 {
