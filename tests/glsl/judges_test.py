@@ -21,7 +21,7 @@ import corpus
 import glsl_random
 
 JUDGE = os.path.join(EXAMPLES, "../tests/glsl_judge")
-LONG = bool(os.environ.get("LIGHTING_TEST_LONG"))
+LONG = int(os.environ.get("LIGHTING_TEST_LONG") or 0)
 SEED = int(os.environ.get("LIGHTING_TEST_SEED", "28"))
 BATCH = 200
 # Where the judges differ, what one of them says of a text that the other accepts, whether it is in error by the specification,
@@ -200,10 +200,10 @@ class Judges(unittest.TestCase):
         self.check("programs", programs())
 
     def test_submissions(self):
-        self.check("corpus", list(submissions())[:: 1 if LONG else 12])
+        self.check("corpus", list(submissions())[:: LONG or 12])
 
     def test_random_programs(self):
-        self.check("random", self.random_programs(4000 if LONG else 80), 0.97)
+        self.check("random", self.random_programs(4000 // LONG if LONG else 80), 0.97)
 
     def random_programs(self, count):
         for i in range(count):
@@ -214,7 +214,7 @@ class Judges(unittest.TestCase):
     def test_mutations(self):
         originals = programs() + [pair for pair in submissions()][::7]
         originals += list(self.random_programs(200))
-        count = 6000 if LONG else 100
+        count = 6000 // LONG if LONG else 100
         texts = []
         for i in range(count):
             name, text = originals[i * 7919 % len(originals)]

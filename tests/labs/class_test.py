@@ -607,7 +607,7 @@ class Results(Class):
         """Bubblewrap alone leaves a sandbox behind if it is killed at its start."""
         for i in range(4):
             self.submit_endless(f"endless{i}")
-        for count in range(2, 17, 1 if base.LONG else 5):
+        for count in range(2, 17, base.LONG or 5):
             for end in (signal.SIGINT, signal.SIGKILL):
                 with self.subTest(processes=count, signal=end):
                     self.check_end(end, lambda started: len(started) >= count)

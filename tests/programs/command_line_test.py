@@ -59,14 +59,13 @@ SOMEBODY = {"user": 65534, "group": 65534, "extra_groups": []} if os.getuid() ==
 SMALL = ("-s", "40x40")
 # Seconds after which a program counts as hanging, also on a busy machine.
 PATIENCE = 600
-LONG = bool(os.environ.get("LIGHTING_TEST_LONG"))
+LONG = int(os.environ.get("LIGHTING_TEST_LONG") or 0)
 
 
 def step(number):
-    """Of many similar cases: the short form takes every `2 * number`-th, the long one (tests/run --long,
-    which sets LIGHTING_TEST_LONG) all; AddressSanitizer, which needs code rather than cases, half of
-    the short one's."""
-    return 1 if LONG else 4 * number if SANITIZED else 2 * number
+    """Of many similar cases: the short form takes every `2 * number`-th, the long one every LIGHTING_TEST_LONG-th at
+    least, which tests/run sets; AddressSanitizer, which needs code rather than cases, an eighth of the short one's."""
+    return min(LONG, 2 * number) if LONG else 16 * number if SANITIZED else 2 * number
 
 
 def in_long_form(test):
@@ -75,9 +74,9 @@ def in_long_form(test):
 
 
 def seed():
-    """Of random cases, printed: the same in every short run, which only a change of the program may fail, and another in each
-    long one. LIGHTING_TEST_SEED replaces it."""
-    number = int(os.environ.get("LIGHTING_TEST_SEED", random.SystemRandom().randrange(1 << 30) if LONG else 1))
+    """Of random cases, printed: the same in every run, which only a change of the program may fail, and another with
+    tests/run --all. LIGHTING_TEST_SEED replaces it."""
+    number = int(os.environ.get("LIGHTING_TEST_SEED", random.SystemRandom().randrange(1 << 30) if LONG == 1 else 1))
     print(f"LIGHTING_TEST_SEED={number}", file=sys.stderr)
     return number
 

@@ -29,10 +29,11 @@ int testing_run(int list, const char *name, CMFixtureFunction setup, CMFixtureFu
 int testing_step(int step)
 {
     const char *everything = getenv("LIGHTING_TEST_LONG"), *backend = getenv("LIGHTING_BACKEND");
-    if (everything && everything[0])
-        return 1;
-    const bool few = getenv("ASAN_OPTIONS") || (backend && strcmp(backend, "osmesa") == 0);
-    return few ? 4 * step : 2 * step;
+    const int every = everything ? atoi(everything) : 0;
+    if (every > 0)
+        return every < 2 * step ? every : 2 * step;
+    const bool few = backend && strcmp(backend, "osmesa") == 0;
+    return getenv("ASAN_OPTIONS") ? 16 * step : few ? 4 * step : 2 * step;
 }
 
 int testing_part(int count, int step)

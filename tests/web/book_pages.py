@@ -12,7 +12,7 @@ import tempfile
 import urllib.parse
 
 import sizes
-from pages import IN_FIREFOX, SITE, SOURCE, Case, address, differences, native
+from pages import IN_FIREFOX, SITE, SOURCE, Case, address, differences, native, part
 
 CHAPTERS = sorted(path.stem for path in pathlib.Path(SITE).glob("chapter*.html")) or [f"chapter{i:02}" for i in range(1, 22)]
 STEADY = """(() => {
@@ -55,7 +55,7 @@ class Book(Case):
         return words
 
     def test_each_figure_is_native(self):
-        for name in CHAPTERS:
+        for name in part(CHAPTERS):
             self.open_all(name)
             with self.subTest(name):
                 for number in range(self.page.run("Book.book.figures.length")):
@@ -68,13 +68,13 @@ class Book(Case):
 
     def test_narrow_pages(self):
         self.page.resize(360, 700)
-        for name in ["book", *CHAPTERS]:
+        for name in ["book", *part(CHAPTERS, 1)]:
             self.page.open(address(name), "true" if name == "book" else "document.body.dataset.ready")
             self.page.run("for (const part of document.querySelectorAll('details')) part.open = true")
             self.assertLessEqual(self.page.run("document.documentElement.scrollWidth"), 360, name)
 
     def test_every_answer_is_drawn(self):
-        for name in CHAPTERS:
+        for name in part(CHAPTERS, 2):
             self.open_all(name)
             for number in range(self.page.run("document.querySelectorAll('.expect[data-words]').length")):
                 question = f"document.querySelectorAll('.expect[data-words]')[{number}]"
@@ -217,7 +217,7 @@ class Book(Case):
     def test_slides_are_large(self):
         """Diagrams are as high as the pictures that are drawn; no formula is too wide."""
         self.page.resize(1280, 800)
-        for name in CHAPTERS:
+        for name in part(CHAPTERS, 3):
             self.page.open(address(name).replace(".html", ".html?slides"))
             found = self.page.run("""[...document.querySelectorAll("article > .Vectors, article > p:has(> math[display=block])")].flatMap(part => {
                 part.classList.add("shown");
@@ -248,9 +248,9 @@ class Book(Case):
 
     def test_what_comes_at_once(self):
         """Before the reader does anything, with the pictures that are in sight, packed as a server sends them: in low and high windows."""
-        for width, height in ((360, 640), (360, 1440), (390, 800), (1280, 900), (1920, 1200), (2560, 1440)):
+        for number, (width, height) in enumerate(((360, 640), (360, 1440), (390, 800), (1280, 900), (1920, 1200), (2560, 1440))):
             self.page.resize(width, height)
-            for name in CHAPTERS:
+            for name in part(CHAPTERS, number):
                 self.page.open(address(name))
                 self.page.wait(SEEN)
                 loaded = {pathlib.Path(urllib.parse.unquote(urllib.parse.urlparse(url).path)) for url in self.page.requests() if url.startswith("file:")}
@@ -261,7 +261,7 @@ class Book(Case):
         """A figure in sight that is beyond what comes at once says so, and how much it is; then the mouse moves."""
         self.page.resize(2560, 1440)
         waiting = 0
-        for name in CHAPTERS:
+        for name in part(CHAPTERS):
             self.page.open(address(name))
             self.page.wait(SEEN)
             waits = self.page.run("[...document.querySelectorAll('[data-waits]')].map(figure => figure.dataset.waits)")

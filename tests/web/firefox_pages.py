@@ -5,7 +5,7 @@ import unittest
 import firefox
 from labs_pages import SHADERS, SOLUTION, OfLabs, check, mistakes, said
 from model_pages import OfModels
-from pages import RENDERER, differences, native
+from pages import RENDERER, differences, native, part
 
 MISSING = firefox.missing()
 SAYS_MEDIUMP = ("PointLightedCube_perFragment", "PointLightedSphere_perFragment")
@@ -32,7 +32,7 @@ class InFirefox(OfLabs, OfModels):
         self.open("LightedCube")
         renderer = self.page.run(RENDERER)
         self.assertIn("llvmpipe", renderer)
-        for program in self.programs():
+        for program in part(self.programs()):
             with self.subTest(program["name"], renderer=renderer):
                 self.assertEqual(self.of_page(program["name"], "time=1.3&precision=highp"), (0, 0))
         # Firefox makes desktop OpenGL of the shaders, which has no mediump: here it is highp, natively 11 bits. These are 0.50
@@ -51,7 +51,7 @@ class InFirefox(OfLabs, OfModels):
 
     def test_the_exact_picture_has_the_same_bits(self):
         self.open("LightedCube")
-        self.assert_exact_bits([program["name"] for program in self.programs() if program["scene"]])
+        self.assert_exact_bits(part(program["name"] for program in self.programs() if program["scene"]))
 
     def test_a_lost_context_comes_back(self):
         self.open("FourLights", "time=2")

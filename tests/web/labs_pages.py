@@ -13,7 +13,7 @@ import time
 import unittest
 
 import browser
-from pages import EXAMPLES, SITE, SOURCE, Case, differences
+from pages import EXAMPLES, LONG, SITE, SOURCE, Case, differences, part
 
 sys.path.insert(0, os.path.join(SOURCE, "tests/labs"))
 import corpus
@@ -105,7 +105,7 @@ class Corpus(OfLabs):
         seed = int(os.environ.get("LIGHTING_TEST_SEED", 1))
         self.open(mistakes.NAMES[5])
         todo = [(f"{name}, LIGHTING_TEST_SEED={seed}", lab, texts)
-                for lab, name, texts in sampled(int(os.environ.get("LIGHTING_TEST_CASES", 3)), seed)]
+                for lab, name, texts in sampled(int(os.environ.get("LIGHTING_TEST_CASES", 3 if LONG == 1 else 1)), seed)]
         self.assertGreaterEqual(len(todo), len(SHADERS))
         for name, lab, texts, expected in self.beside(todo):
             with self.subTest(name, lab=lab):
@@ -119,7 +119,7 @@ class Verdicts(OfLabs):
         self.open(mistakes.NAMES[5])
         cases = [("solution", lab, mistakes.read(lab)) for lab in SHADERS]
         cases += [("starter", lab, starter(lab)) for lab in SHADERS]
-        for name, lab, texts, expected in self.beside(undefined() + cases + made(12)):
+        for name, lab, texts, expected in self.beside(undefined() + part(cases, 1) + made(12 * LONG)):
             with self.subTest(name, lab=lab):
                 self.assertEqual(said(self.judge(lab, texts)), said(expected))
         # Operations are counted; of the C, numbers are read.
@@ -158,7 +158,7 @@ class Verdicts(OfLabs):
 
     def test_errors_of_the_compiler_are_explained(self):
         self.open(mistakes.NAMES[5])
-        for number, (name, ((lab, texts), file, meaning)) in enumerate(faults.FAULTS.items()):
+        for number, (name, ((lab, texts), file, meaning)) in part(enumerate(faults.FAULTS.items())):
             with self.subTest(name):
                 said = self.page.run(f"""LabWorker.ask({{lab: {json.dumps(mistakes.NAMES[lab])},
                     what: "draw", seconds: 1, texts: new Map(Object.entries({json.dumps(texts)}))}})

@@ -30,6 +30,14 @@ RENDERER = """(() => {
 CONFIRM = "window.asked = []; window.confirm = text => { asked.push(text); return !window.refuses; };"
 
 
+LONG = int(os.environ.get("LIGHTING_TEST_LONG") or 1)
+
+
+def part(things, first=0):
+    """Of many similar cases, every LIGHTING_TEST_LONG-th; all without."""
+    return list(things)[first % LONG::LONG]
+
+
 def make():
     """Builds the pages with examples/run web; 0, or what a test exits with."""
     for tool in ("emcc", "chromium", "pyftsubset", *(firefox.NEEDS if IN_FIREFOX else ())):
