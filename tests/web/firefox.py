@@ -210,6 +210,8 @@ class Firefox(Page):
 
     def navigate(self, address):
         self.call("browsingContext.navigate", context=self.tab, url=address, wait="complete")
+        # As a click of its user does, else the field of the address has the focus, and the page gets neither blur nor change.
+        self.of_window("gBrowser.selectedBrowser.focus()")
 
     @staticmethod
     def gone(message):
