@@ -59,6 +59,9 @@ OPTIONS = [["--samples=4"], ["--precision=highp"], ["--precision=mediump"], ["--
 OF_SCENES = [["--linear-light"], ["--full"], ["--clamp=vertex"], ["--terms=diffuse"], ["--clamp-dots=off"]]
 OF_ONE = {"Shadows": [["--shadows=map"], ["--shadows=volumes", "--sheet=on"]],
           "SpotLight": [["--shadows=volumes"], ["--shadows=volumes", "--samples=4"], ["--light-color=0,0.2,1,0.5"]]}
+# Its axes are two pixels wide where each pixel is the mean of four. Firefox has lines of one alone (ALIASED_LINE_WIDTH_RANGE): three
+# of some 130 pixels, half as thick.
+THIN_LINES = OF_ONE["SpotLight"][1]
 
 
 def decode_png(data):
@@ -90,7 +93,11 @@ class Parity(Case):
                 drawn = self.page.run(f"rgb({json.dumps([program['name'], *arguments])})")
                 with self.subTest(program["name"], arguments=arguments):
                     self.assertNotIn("!", drawn[:1])
-                    self.assertEqual(differences(base64.b64decode(drawn), native(program["name"], arguments)), (0, 0))
+                    bytes_apart, more = differences(base64.b64decode(drawn), native(program["name"], arguments))
+                    if arguments == THIN_LINES and IN_FIREFOX:
+                        self.assertTrue(0 < bytes_apart <= 3 * 400, bytes_apart)
+                    else:
+                        self.assertEqual((bytes_apart, more), (0, 0))
                 count += 1
         self.assertGreater(count, 200 // LONG)
 
