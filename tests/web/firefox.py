@@ -44,7 +44,8 @@ UNNAMED = """(async () => {
         part.getState(state, {});
         found.busy ||= state.value & Ci.nsIAccessibleStates.STATE_BUSY;
         const role = service.getStringRole(part.role);
-        if (state.value & Ci.nsIAccessibleStates.STATE_FOCUSABLE && role !== "document" && role !== "internal frame")
+        // A text container has no role that is read, as Chromium's generic.
+        if (state.value & Ci.nsIAccessibleStates.STATE_FOCUSABLE && !["document", "internal frame", "text container"].includes(role))
             if (part.name) found.named++; else found.roles.push(role);
         for (let i = 0; i < part.childCount; i++)
             look(part.getChildAt(i));
