@@ -360,6 +360,8 @@ static void coincide(Random *random, RandomScene *scene)
         light->position = scene_eye_point(&before, eye_from_world, light->position);
         light->direction = mat4_transform_direction(eye_from_world, light->direction);
     }
+    if (way < 2 || way == 8) /* what it touches throws one */
+        light->shadows = !scene->scene.clamp_vertex;
 }
 
 /* The judge can fail: a light a quarter to one side is far off. */

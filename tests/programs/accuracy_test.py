@@ -493,13 +493,14 @@ class Surveys(Study):
 class Choices(Study):
     def test_the_cheapest_within_a_budget_is_named_and_confirmed(self):
         text = self.accuracy("--scene", "sphere", "--budget", "8", *QUICK)
-        for part in (r"^cheapest: ", r"\n(the next cheaper: |there is none)",
+        busy = r"the machine is busy: .*; none is compared\nmost usual: "
+        for part in (rf"^(cheapest: (.*\n)+(the next cheaper: |there is none|measured)|{busy})",
                      r"\nmeasured with .*LP_NUM_THREADS default, 48x48, seed 1\n$"):
             self.assertRegex(text, part)
         for error in text.split("largest error ")[1:2]:
             self.assertLessEqual(float(error.split()[0]), 8)
         self.assertRegex(self.accuracy("--scene", "sphere", "--budget", "1", "--rms", *QUICK),
-                         r"^cheapest: .*\n  rms error ")
+                         rf"^(cheapest|{busy[:-2]}): .*\n  rms error ")
 
     @base.in_long_form
     def test_a_budget_out_of_reach_says_the_best(self):
@@ -510,8 +511,7 @@ class Choices(Study):
     @base.in_long_form
     def test_the_most_exact_within_a_time_is_named(self):
         text = self.accuracy("--scene", "sphere", "--time-budget", "1000000", *QUICK)
-        self.assertRegex(text, r"^most exact: .*\n")
-        self.assertIn("there is none that is more exact", text)
+        self.assertRegex(text, r"^(the machine is busy: .*\n)?most exact: .*\n")
         self.says(1, r"no setting of sphere is so fast; the best takes", "--scene", "sphere",
                   "--time-budget", "0", *QUICK, program="accuracy", environment=self.own)
 

@@ -512,8 +512,12 @@ TEST(of_tied_settings_the_usual_is_chosen)
     assert_int_equal(chosen(tied, 0.3, false), 0);
     assert_int_equal(chosen(tied, 0.01, false), 1);
     /* The usual one is tied with the second, but surely slower than the third. */
-    const double chain[3][3] = {{2, 1, 0}, {1.7, 1, 1}, {1.5, 1, 2}};
-    assert_int_equal(chosen(chain, 0.2, false), 1);
+    const double chain[3][3] = {{2, 1, 0}, {1.85, 1, 1}, {1.75, 1, 2}};
+    assert_int_equal(chosen(chain, 0.1, false), 1);
+    /* On a busy machine no time counts. */
+    const double apart[3][3] = {{9, 1, 0}, {1, 1, 1}, {2, 1, 2}};
+    assert_int_equal(chosen(apart, 0.1, false), 1);
+    assert_int_equal(chosen(apart, 0.11, false), 0);
     /* Out of the budget. */
     const double inexact[3][3] = {{2, 4.1, 0}, {1.6, 4, 1}, {1.7, 1, 2}};
     assert_int_equal(chosen(inexact, 0.3, false), 1);

@@ -47,7 +47,7 @@ typedef struct HardCase {
     int width, height;      /* of the picture, which is then enlarged; 0: the user's */
 } HardCase;
 
-enum { HARD_FORMULA_COUNT = 20, HARD_SHADOW_COUNT = 9 };
+enum { HARD_FORMULA_COUNT = 20, HARD_SHADOW_COUNT = 10 };
 enum { HARD_CASE_COUNT = HARD_FORMULA_COUNT + HARD_SHADOW_COUNT };
 extern const HardCase HARD_FORMULAS[HARD_FORMULA_COUNT], HARD_SHADOWS[HARD_SHADOW_COUNT];
 

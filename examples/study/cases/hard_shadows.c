@@ -62,6 +62,14 @@ static void make_mirrored(HardScene *made)
     made->objects[0].closed = made->objects[1].closed = true;
 }
 
+/* At a corner of the box, turned. */
+static void make_lamp(HardScene *made)
+{
+    Mat4 *box = &made->objects[0].world_from_object;
+    *box = mat4_product(mat4_rotate(35, (Vec3){0.1, 1, 0}), *box);
+    made->lights[0].position = mat4_transform_point(*box, (Vec3){0.5, 0.5, 0.5});
+}
+
 const HardCase HARD_SHADOWS[HARD_SHADOW_COUNT] = {
     {"acne", "a shadow map in grazing light: a texel is one depth", "map of 256, no bias",
      "volumes", .shape = HARD_TEAPOT, .size = 0.8, .floor = -0.65, .make = make_acne,
@@ -101,4 +109,7 @@ const HardCase HARD_SHADOWS[HARD_SHADOW_COUNT] = {
      .floor = -0.7, .light = {-3, 3, 2}, .make = make_mirrored,
      .replaced = {{"shadow.frag", "study/shadow_back_faces.frag"}},
      .shadows = {SHADOWS_MAP, 1024, 0, {0, 0, 0}}},
+    {"lamp", "a light exactly at a vertex of what throws the shadow", "map of 32", "volumes",
+     .shape = HARD_CUBE, .boxes = {{{0, -0.125, 0}, {1, 1, 1}}}, .floor = -0.75, .make = make_lamp,
+     .shadows = {SHADOWS_MAP, 32, 0, {1, 1.5, 0}}},
 };

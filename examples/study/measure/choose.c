@@ -2,8 +2,8 @@
  * The best setting within a limit, from a survey that other programs disturbed: those that may be
  * best by the survey are measured again, against each other, and chosen among by these times alone.
  * Tied are those that none is surely faster than; of them the one with the fewest unusual choices
- * is named, so that two runs say the same. If none of the first eight stays within the
- * limit, the next are tried.
+ * is named, so that two runs say the same; where the machine is busy all are. If none of the first
+ * eight stays within the limit, the next are tried.
  */
 #include "study/measure/survey.h"
 
@@ -106,17 +106,24 @@ static bool is_within(const ResultRow *row, const ChooseLimit *limit)
     return (limit->is_time ? surely(row) : row_error(row, limit->kind)) <= limit->value;
 }
 
+static double noise_of(const ResultRow *rows, int count)
+{
+    return front_noise(&(Results){.rows = (ResultRow *)rows, .count = count}, NULL);
+}
+
 /* Whether a row within the limit is the best or cannot be told from it. Of error: no other that is
  * within is surely faster; of time: none is more exact. */
 static bool is_among_best(const ResultRow *row, const ResultRow *rows, int count,
                           const ChooseLimit *limit)
 {
+    const bool busy = noise_of(rows, count) > FRONT_NOISE_BOUND;
+
     bool best = is_within(row, limit);
     for (int i = 0; i < count && best; i++)
         if (is_within(&rows[i], limit))
             best = limit->is_time ? row_error(row, limit->kind) <
                                         row_error(&rows[i], limit->kind) + FRONT_EQUAL_ERROR
-                                  : !row_faster(&rows[i], row);
+                                  : busy || !row_faster(&rows[i], row);
     return best;
 }
 
@@ -161,14 +168,51 @@ static void say_ties(const Finalists *finalists, const ResultRow *best, const Ch
     }
 }
 
+/* What less time, or less error, would cost: of the front, the last row beyond the limit. */
+static void say_neighbour(const Front *front, const ChooseLimit *limit)
+{
+    const ResultRow *neighbour = NULL;
+    for (int i = 0; i < front->count; i++) {
+        const ResultRow *row = front->rows[i];
+        if (limit->is_time ? row->time > limit->value && !neighbour
+                           : row_error(row, limit->kind) > limit->value)
+            neighbour = row;
+    }
+    if (neighbour)
+        say(limit->is_time ? "the next slower" : "the next cheaper", neighbour, limit->kind);
+    else
+        printf("there is none that is %s\n", limit->is_time ? "more exact" : "cheaper");
+}
+
+/* On a busy machine nothing that a comparison of times says. */
+static void report(const Survey *survey, const Finalists *finalists, const Front *front,
+                   const ResultRow *best, const ChooseLimit *limit)
+{
+    char with[RESULT_WITH_SIZE];
+    const double noise = noise_of(finalists->rows, finalists->count);
+    const bool busy = noise > FRONT_NOISE_BOUND;
+    if (busy)
+        printf("the machine is busy: half these times have a noise of at least %.0f%%; none is "
+               "compared\n",
+               100 * noise);
+    say(limit->is_time ? "most exact" : busy ? "most usual" : "cheapest", best, limit->kind);
+    if (!busy)
+        say_ties(finalists, best, limit);
+    if (!busy && !front->busy)
+        say_neighbour(front, limit);
+    results_measured_with(&survey->like, with);
+    printf("measured with %s\n", with);
+}
+
 static bool refuse(const Front *front, const char *name, const ChooseLimit *limit, Message *message)
 {
     if (front->count == 0)
         return message_set(message, "%s: no setting has been measured", name);
     if (limit->is_time)
-        return message_set(message,
-                           "--time-budget %g: no setting of %s is so fast; the best takes %.3f ms",
-                           limit->value, name, front->rows[0]->time);
+        return message_set(
+            message, "--time-budget %g: no setting of %s is so fast; the best takes %.3f ms%s",
+            limit->value, name, front->rows[0]->time,
+            front->busy ? ", measured on a busy machine" : "");
     return message_set(message, "--budget %g: no setting of %s is so exact; the best has %.3f",
                        limit->value, name, row_error(front->rows[front->count - 1], limit->kind));
 }
@@ -178,7 +222,6 @@ bool choose(Survey *survey, int scene, const ChooseLimit *limit, Message *messag
     enum { TRIES = 6, LOOSE = 2 };
     static const double SLACK = 1.5;
     const char *name = STUDY_SCENES[scene].name;
-    char with[RESULT_WITH_SIZE];
     Finalists *finalists = memory_new(1, sizeof *finalists);
     Front front;
     const ResultRow *best = NULL;
@@ -198,29 +241,10 @@ bool choose(Survey *survey, int scene, const ChooseLimit *limit, Message *messag
                             message);
         best = choose_among(finalists->rows, finalists->count, limit);
     }
-    if (done && best) {
-        say(limit->is_time ? "most exact" : "cheapest", best, limit->kind);
-        say_ties(finalists, best, limit);
-        /* What less time, or less error, would cost: of the front, the last row beyond the limit.
-         */
-        const ResultRow *neighbour = NULL;
-        for (int i = 0; i < front.count; i++) {
-            const ResultRow *row = front.rows[i];
-            if (limit->is_time ? row->time > limit->value && !neighbour
-                               : row_error(row, limit->kind) > limit->value)
-                neighbour = row;
-        }
-        if (neighbour)
-            say(limit->is_time ? "the next slower" : "the next cheaper", neighbour, limit->kind);
-        else
-            printf("there is none that is %s\n", limit->is_time ? "more exact" : "cheaper");
-        results_measured_with(&survey->like, with);
-        if (best->noise > FRONT_NOISE_BOUND)
-            printf("the machine is busy: times have a noise of %.0f%%\n", 100 * best->noise);
-        printf("measured with %s\n", with);
-    } else if (done) {
+    if (done && best)
+        report(survey, finalists, &front, best, limit);
+    else if (done)
         done = refuse(&front, name, limit, message);
-    }
     front_close(&front);
     free(finalists);
     return done;

@@ -73,7 +73,8 @@ typedef struct ChooseLimit {
 
 /* Of rows as measured against each other: among those within the limit that none of these is surely
  * faster than (of a limit of time: that are as exact as the most exact) the one with the fewest
- * unusual choices, then the most exact. NULL: none is within. */
+ * unusual choices, then the most exact. NULL: none is within. If the median noise is above
+ * FRONT_NOISE_BOUND none is surely faster. */
 const ResultRow *choose_among(const ResultRow *rows, int count, const ChooseLimit *limit);
 
 /* Prints the cheapest setting of a surveyed scene within a limit of error, or the most exact one
