@@ -117,11 +117,20 @@ static bool egl_has_memory(Message *message)
                        (int)(limit.rlim_cur >> 20), LEAST);
 }
 
+/* With 7 bits llvmpipe writes over its memory. */
+static bool egl_has_vectors(Message *message)
+{
+    const char *name = "LP_NATIVE_VECTOR_WIDTH", *bits = getenv(name);
+    const long width = bits ? strtol(bits, NULL, 0) : 128;
+    return width == 128 || width == 256 || width == 512 ||
+           message_set(message, "EGL: %s is \"%.100s\", not 128, 256 or 512: unset it", name, bits);
+}
+
 static bool egl_load(Message *message)
 {
     if (egl.library)
         return true;
-    if (!egl_has_memory(message))
+    if (!egl_has_memory(message) || !egl_has_vectors(message))
         return false;
     void *library = dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL);
     if (!library)

@@ -90,7 +90,10 @@ static bool read_header_line(Ply *ply, const char *line)
     } else if (sscanf(line, "comment TextureFile %255[^\r]", word) == 1) {
         ply->mean = own_mean(ply->file, ply->folder, word);
         scene_file_note(ply->file, true, NOTE_MEAN);
-    } else if (sscanf(line, "element %31s %zu", element.name, &element.rows) == 2) {
+    } else if (strncmp(line, "element ", 8) == 0) {
+        if (sscanf(line, "element %31s %18[0-9]%1[^ \t\r]", element.name, length, type) != 2)
+            return false;
+        element.rows = strtoull(length, NULL, 10);
         *(Element *)memory_add(&ply->elements, &ply->element_count, &ply->element_room,
                                sizeof *ply->elements) = element;
     } else if (sscanf(line, "property list %31s %31s %31s", length, type, word) == 3 ||
@@ -243,9 +246,11 @@ static bool open_mesh(Ply *ply, const Element *element)
 {
     const Vec3 black = {0, 0, 0};
     const Material material = {ply->mean, ply->mean, black, black, 1, 0};
-    bool colored = false;
+    unsigned has = 0;
     for (int i = 0; i < element->count; i++)
-        colored |= ply->properties[element->first + i].role == COLORS;
+        has |= 1U << ply->properties[element->first + i].role;
+    if ((has & 7) != 7)
+        return message_set(ply->reason, "its vertices need x, y and z");
     *(FileNode *)scene_file_add(ply->file, FILE_NODES, NULL) =
         (FileNode){.parent = -1, .parent_from_node = mat4_identity()};
     ((FileObject *)scene_file_add(ply->file, FILE_OBJECTS, NULL))->object =
@@ -254,7 +259,7 @@ static bool open_mesh(Ply *ply, const Element *element)
     ply->mesh = scene_file_add(ply->file, FILE_MESHES, ply->reason);
     return scene_file_fits(element->rows, 0, ply->reason) &&
            mesh_open(ply->mesh, element->rows, 1, ply->reason) &&
-           (!colored || mesh_open_colors(ply->mesh, ply->reason));
+           (!(has & 1U << COLORS) || mesh_open_colors(ply->mesh, ply->reason));
 }
 
 static bool read_element(Ply *ply, const Element *element)

@@ -565,6 +565,8 @@ class Options(Case):
                      environment=NO_DRIVER)
         self.refused(1, '\nLightedCube: EGL: .*; GALLIUM_DRIVER is "nonsense": unset it',
                      environment={"GALLIUM_DRIVER": "nonsense"}, lines=0)
+        self.refused(1, 'LightedCube: EGL: LP_NATIVE_VECTOR_WIDTH is "7", .*: unset it',
+                     environment={"LP_NATIVE_VECTOR_WIDTH": "7"})
         self.refused(1, '^LightedCube: EGL: .*; MESA_GLES_VERSION_OVERRIDE is "1.0": unset it',
                      environment={"MESA_GLES_VERSION_OVERRIDE": "1.0"})
         self.make("none/libEGL.so.1", "")
