@@ -66,7 +66,7 @@ int testing_run(int list, const char *name, CMFixtureFunction setup, CMFixtureFu
 enum { EXIT_SKIPPED = 77 };
 
 /* Of many similar cases the short form of the tests takes every `2 * step`-th, on the second
- * backend every `4 * step`-th, under AddressSanitizer every `16 * step`-th; the long form every
+ * backend and under AddressSanitizer every `4 * step`-th; the long form every
  * LIGHTING_TEST_LONG-th at least, which tests/run sets in the environment: with --all to 1. */
 int testing_step(int step);
 

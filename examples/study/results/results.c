@@ -138,9 +138,9 @@ bool results_parse(Results *results, const char *path, const char *text, size_t 
                    const ResultRow *like, Message *message)
 {
     int broken = 0, other = 0, number = 1;
-    const char *next = text, *end = text + size;
     if (size == 0 || is_cut_header(text, size))
         return true;
+    const char *next = text, *end = text + size;
     if (!header_check(path, text, end, &next, message))
         return false;
     while (next && next < end) {
