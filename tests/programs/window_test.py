@@ -983,6 +983,8 @@ class Shaders(Case):
         self.edit(self.original, True)
         wait_for(lambda: "broken" not in shown.title(), "a title that no longer says so")
         self.assert_drawn(shown, self.original)
+        os.remove(self.path(self.FRAGMENT))  # then the original is drawn
+        wait_for(lambda: shown.said().endswith(f"{self.FRAGMENT} is gone\n"), "a warning")
 
     def test_a_missing_folder_does_not_end_it(self):
         self.edit(self.original, False)
