@@ -250,7 +250,7 @@ class Points(Case):
     def test_parts(self):
         lab = self.lab(self.PARTS)
         self.write(read(lab, "solution", "spot.vert"), "mine", "spot.vert")
-        for changes, right, points in self.WRONG[:: base.step(3)]:
+        for changes, right, points in reversed(self.WRONG[:: -base.step(3)]):
             mine = self.write(read(lab, "solution", "spot.frag"), "mine", "spot.frag")
             for old, new in changes:
                 self.change(old, new, "mine", "spot.frag")
