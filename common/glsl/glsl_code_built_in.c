@@ -9,7 +9,7 @@ static int op(Compiler *compiler, int what, int a, int b)
     return compute(compiler, what, a, b);
 }
 
-/* From the last product on. */
+/* From the last product on; the last sum has their number (see fused_dot in glsl_execute.c). */
 static int dot(Compiler *compiler, Value a, Value b)
 {
     int sum = -1;
@@ -18,6 +18,8 @@ static int dot(Compiler *compiler, Value a, Value b)
             op(compiler, OP_MULTIPLY, register_of(compiler, a, i), register_of(compiler, b, i));
         sum = i < a.count - 1 ? op(compiler, OP_ADD, sum, product) : product;
     }
+    if (a.count > 1 && !compiler->code->message.text[0])
+        compiler->code->instructions[compiler->code->instruction_count - 1].n = a.count;
     return sum;
 }
 

@@ -223,19 +223,35 @@ static double function(const GlslArithmetic *arithmetic, const GlslInstruction *
     /* clang-format on */
 }
 
+/* From the first product on, each added with one rounding; `at` is the last sum, and what dot
+ * compiled is before it. */
+static double fused_dot(const double *r, const GlslInstruction *at,
+                        const GlslArithmetic *arithmetic)
+{
+    double sum = 0;
+    for (int i = 0; i < at->n; i++) {
+        const GlslInstruction *product = at - 2 * i - (i < at->n - 1);
+        const double a = round_to(arithmetic, at->precision, r[product->a]);
+        sum = round_to(arithmetic, at->precision,
+                       sum + a * round_to(arithmetic, at->precision, r[product->b]));
+    }
+    return sum;
+}
+
 static double operate(GlslRun *run, const GlslInstruction *at, const GlslArithmetic *arithmetic)
 {
     const double *r = run->registers;
     const bool narrow = arithmetic->of[at->precision].bits < 24;
+    const bool fused = arithmetic->of[at->precision].cut;
     const double a = narrow ? round_to(arithmetic, at->precision, r[at->a]) : r[at->a];
     const double b = narrow ? round_to(arithmetic, at->precision, r[at->b]) : r[at->b];
     double result;
     /* clang-format off */
     switch (at->op) {
-    case OP_ADD: result = a + b; break;
+    case OP_ADD: result = fused && at->n ? fused_dot(r, at, arithmetic) : a + b; break;
     case OP_SUBTRACT: result = a - b; break;
     case OP_MULTIPLY: result = a * b; break;
-    case OP_SET: return a;
+    case OP_SET: return fused ? r[at->a] : a; /* rounded where it is computed with */
     case OP_NEGATE: return -a;
     case OP_NOT: return a == 0;
     case OP_LESS: return a < b;

@@ -52,7 +52,9 @@ int glsl_event_symbol(const GlslCode *code, int instruction);
 typedef struct GlslNumbers {
     int bits, least, most;
     bool denormals; /* smaller numbers are kept */
-    bool cut;       /* roots, logarithms, powers of 2 and reciprocals are cut, not rounded */
+    /* As NVIDIA's 16 bits: roots, logarithms, powers of 2 and reciprocals are cut, not rounded, dot
+     * products are fused from x on, and what is only copied keeps its bits. */
+    bool cut;
 } GlslNumbers;
 
 /* A driver's numbers, for each precision (see GLSL_HIGHP). Ints have the first, without precision.

@@ -259,24 +259,30 @@ TEST(a_devices_numbers_are_read_as_they_are_printed)
     assert_false(glsl_arithmetic_read("highp=24,-126,127;mediump=11,-14,15;bytes=99", &none));
 }
 
-/* In 11 bits x is 1229/4096, whose root is 1121.83/2048; 1 / 19 is 1724.6/32768. */
-TEST(a_device_may_cut_roots_and_reciprocals)
+/* In 11 bits x is 1229/4096, whose root is 1121.83/2048; 1 / 19 is 1724.6/32768; x * x is 1475.04
+ * of 1/16384, with 1026 of them 1250.52/8192: as much as 1250 if the product is rounded before. */
+TEST(a_device_may_cut_roots_and_reciprocals_and_fuse_dot_products)
 {
     static const char *const texts[] = {"highp=11,-14,15;mediump=11,-14,15",
                                         "highp=11,-14,15,cut;mediump=11,-14,15"};
     Shader root = ran("r = sqrt(x);"), quotient = ran("r = 2.0 / y;");
+    Shader product = ran("r = dot(vec2(1.0, x), vec2(y, x));");
+    *registers(&product, "y") = 1026 / 16384.0;
     for (int i = 0; i < 2; i++) {
         GlslArithmetic arithmetic;
         assert_true(glsl_arithmetic_read(texts[i], &arithmetic));
-        root.run->arithmetic = quotient.run->arithmetic = &arithmetic;
+        root.run->arithmetic = quotient.run->arithmetic = product.run->arithmetic = &arithmetic;
         glsl_run(root.run);
         assert_true(*registers(&root, "gl_FragColor") == (1122 - i) / 2048.0);
+        glsl_run(product.run);
+        assert_true(*registers(&product, "gl_FragColor") == (1250 + i) / 8192.0);
         *registers(&quotient, "y") = 19;
         glsl_run(quotient.run);
         assert_true(*registers(&quotient, "gl_FragColor") == 2 * (1725 - i) / 32768.0);
     }
     shader_close(&root);
     shader_close(&quotient);
+    shader_close(&product);
 }
 
 /* Results of float arithmetic in C, which is what the driver's highp is, to the last bit. */
