@@ -10,7 +10,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <unistd.h>
 
 static bool run_window(const Example *example, const Options *options,
                        const ParameterValue *defaults, Message *message)
@@ -31,7 +30,7 @@ static bool redraw(ShaderReload *reload, const Options *options, Message *messag
     if (!frames_close(&sink, drawn, message))
         return false;
     const char *changed = reload->changed;
-    const char *how = access(changed, F_OK) == 0 ? " changed; " : " is gone; ";
+    const char *how = reload->gone ? " is gone; " : " changed; ";
     fprintf(stderr, "%s: %s%sdrew %s in %.0f ms\n", reload->example->name, changed,
             changed[0] ? how : "", options->output, 1e3 * (clock_now() - reload->began));
     return true;

@@ -6,6 +6,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 void shader_reload_open(ShaderReload *reload, const Example *example, const Canvas *canvas,
                         DrawRequest *request)
@@ -84,6 +85,7 @@ ReloadResult shader_reload_poll(ShaderReload *reload, double wait, Message *erro
     const bool renewed = reload->renewed;
     reload->renewed = false;
     reload->changed[0] = '\0';
+    reload->gone = false;
     if (!renewed && !watch_wait(reload->watch, wait))
         return RELOAD_UNCHANGED;
     reload->began = clock_now();
@@ -92,6 +94,7 @@ ReloadResult shader_reload_poll(ShaderReload *reload, double wait, Message *erro
         if (!path)
             return RELOAD_UNCHANGED;
         snprintf(reload->changed, sizeof reload->changed, "%s", path);
+        reload->gone = access(path, F_OK) != 0;
     }
     const ReloadResult result = load(reload, error);
     watch_files(reload);

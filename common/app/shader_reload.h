@@ -34,6 +34,7 @@ typedef struct ShaderReload {
     int watched;            /* how many of the last load's files */
     double began;           /* clock_now of the last load */
     char changed[PATH_MAX]; /* the file that caused it; empty for the first load */
+    bool gone;              /* which is no longer there */
 } ShaderReload;
 
 /* Loads nothing: the first shader_reload_poll does. What is pointed to must outlive the

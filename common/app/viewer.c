@@ -11,7 +11,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 enum { SETTLE = 3 }; /* frames until the panel shows all that follows from an event */
 
@@ -175,7 +174,6 @@ static void update_title(Viewer *viewer)
 static bool load(Viewer *viewer, Message *message)
 {
     Message *warning = &viewer->reload.renderer.warning, error = {0};
-    const char *changed = viewer->reload.changed;
     viewer_request(viewer);
     switch (shader_reload_poll(&viewer->reload, 0, &error)) {
     case RELOAD_FAILED:
@@ -188,11 +186,11 @@ static bool load(Viewer *viewer, Message *message)
         return true;
     case RELOAD_LOADED:
         viewer->due = SETTLE;
-        if (changed[0] && access(changed, F_OK) != 0 && !warning->text[0])
-            message_set(warning, "%s is gone", changed);
+        if (viewer->reload.gone && !warning->text[0])
+            message_set(warning, "%s is gone", viewer->reload.changed);
         if (warning->text[0])
             options_warn(viewer->example->name, warning);
-        if (changed[0] || warning->text[0])
+        if (viewer->reload.changed[0] || warning->text[0])
             viewer_panel_notice(&viewer->panel,
                                 warning->text[0] ? warning->text : "shaders loaded");
         viewer->broken = viewer->unmade = (Message){0};

@@ -241,17 +241,17 @@ static double fused_dot(const double *r, const GlslInstruction *at,
 static double operate(GlslRun *run, const GlslInstruction *at, const GlslArithmetic *arithmetic)
 {
     const double *r = run->registers;
-    const bool narrow = arithmetic->of[at->precision].bits < 24;
-    const bool fused = arithmetic->of[at->precision].cut;
+    const GlslNumbers *numbers = &arithmetic->of[at->precision];
+    const bool narrow = numbers->bits < 24;
     const double a = narrow ? round_to(arithmetic, at->precision, r[at->a]) : r[at->a];
     const double b = narrow ? round_to(arithmetic, at->precision, r[at->b]) : r[at->b];
     double result;
     /* clang-format off */
     switch (at->op) {
-    case OP_ADD: result = fused && at->n ? fused_dot(r, at, arithmetic) : a + b; break;
+    case OP_ADD: result = at->n && numbers->cut ? fused_dot(r, at, arithmetic) : a + b; break;
     case OP_SUBTRACT: result = a - b; break;
     case OP_MULTIPLY: result = a * b; break;
-    case OP_SET: return fused ? r[at->a] : a; /* rounded where it is computed with */
+    case OP_SET: return numbers->cut ? r[at->a] : a; /* rounded where it is computed with */
     case OP_NEGATE: return -a;
     case OP_NOT: return a == 0;
     case OP_LESS: return a < b;

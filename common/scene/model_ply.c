@@ -249,7 +249,7 @@ static bool open_mesh(Ply *ply, const Element *element)
     unsigned has = 0;
     for (int i = 0; i < element->count; i++)
         has |= 1U << ply->properties[element->first + i].role;
-    if ((has & 7) != 7)
+    if ((has & 7) != 7) /* the roles of a position */
         return message_set(ply->reason, "its vertices need x, y and z");
     *(FileNode *)scene_file_add(ply->file, FILE_NODES, NULL) =
         (FileNode){.parent = -1, .parent_from_node = mat4_identity()};

@@ -117,7 +117,6 @@ static bool is_among_best(const ResultRow *row, const ResultRow *rows, int count
                           const ChooseLimit *limit)
 {
     const bool busy = noise_of(rows, count) > FRONT_NOISE_BOUND;
-
     bool best = is_within(row, limit);
     for (int i = 0; i < count && best; i++)
         if (is_within(&rows[i], limit))
