@@ -22,6 +22,7 @@ import svg
 from claims import EXAMPLES, SOURCE
 
 CHAPTERS = book.chapters()
+LONG = int(os.environ.get("LIGHTING_TEST_LONG") or 0)
 
 
 class Numbers(unittest.TestCase):
@@ -82,7 +83,7 @@ class Numbers(unittest.TestCase):
 class Figures(unittest.TestCase):
     def test_each_command_draws(self):
         """Those of figures, of answers and within sentences; in the short form a sixth of each chapter's."""
-        step = int(os.environ.get("LIGHTING_TEST_LONG") or 6)
+        step = LONG or 6
         for number, chapter in enumerate(CHAPTERS):
             for command in sorted({*book.commands(chapter.text), *self.answers(chapter)})[number % step::step]:
                 name, *words = command.replace(" --alpha", "").split()
@@ -140,7 +141,7 @@ class Figures(unittest.TestCase):
 class Costs(unittest.TestCase):
     def test_each_chapter_says_what_accuracy_costs(self):
         """Once, where it speaks of that: error, cost and what is left out; in the short form what a few of the programs say."""
-        programs, step = pathlib.Path(EXAMPLES), int(os.environ.get("LIGHTING_TEST_LONG") or 7)
+        programs, step = pathlib.Path(EXAMPLES), LONG or 7
         for number, chapter in enumerate(CHAPTERS):
             with self.subTest(chapter.path.name):
                 marks = [(heading, words) for heading, text in chapter.sections() for words in costs.MARK.findall(text)]

@@ -119,7 +119,7 @@ TEST(lights_may_be_behind_floor_and_wall)
         const double seconds = random_between(&random, 0, 12);
         const Vec3 place = random_place(&random, i % 2 ? 6 : 3);
         const Vec3 eye = i % 4 < 2 ? eyes[random_below(&random, EYES)] : random_place(&random, 8);
-        if (i % step == i / step % step) /* any remainder */
+        if (i % step == i / step % step) /* one of each `step`, odd and even */
             all &= check_lit_from("anywhere", seconds, i / 2 % 2, place, eye);
     }
     lighting_forget(lighting, NULL);

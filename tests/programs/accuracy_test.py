@@ -512,6 +512,7 @@ class Choices(Study):
     def test_the_most_exact_within_a_time_is_named(self):
         text = self.accuracy("--scene", "sphere", "--time-budget", "1000000", *QUICK)
         self.assertRegex(text, r"^(the machine is busy: .*\n)?most exact: .*\n")
+        self.assertNotIn("the next slower", text)
         self.says(1, r"no setting of sphere is so fast; the best takes", "--scene", "sphere",
                   "--time-budget", "0", *QUICK, program="accuracy", environment=self.own)
 
