@@ -237,18 +237,6 @@ static bool attenuation_guarded(const Light *light, Sphere sphere)
     return !(light->constant > 1e-29 && distance + sphere.radius < FAR);
 }
 
-/* How near a light comes to the object at least. */
-static double nearest_to(const Light *light, Sphere sphere)
-{
-    return fmax(vec3_length(vec3_subtract(sphere.center, light->position)) - sphere.radius, 0);
-}
-
-/* Whether no point of the object is as near as the light's range. */
-static bool beyond_range(const Light *light, Sphere sphere)
-{
-    return light->range > 0 && nearest_to(light, sphere) > light->range * (1 + 1e-6);
-}
-
 /* Whether N.L is negative for each normal N of the cone at each point p of the surface. Along the
  * axis the light is at least `depth` below the surface, and at most `beside` from it across: then
  * N.(light - p) <= sin(angle) beside - cos(angle) depth. What is so close to 0 that a float's

@@ -2,7 +2,8 @@
  * For each light that has shadows: an object receives them if another, or itself, may come between
  * it and the light; and that other throws them. For both questions one partner is enough. So each
  * object looks for a single one, and tries first the partner of the object before it: above a floor
- * that is the floor, for all of them. What is found answers the partner's question, too. Before
+ * that is the floor, for all of them. What is found answers the partner's question, too. Objects
+ * beyond a light's range or cone are left out: what shades one that it reaches lies between. Before
  * boxes are compared exactly (shadows/shadow_culling.h), spheres around them rule out most pairs.
  */
 #include "scene/shadow_pairs.h"
@@ -24,7 +25,8 @@ bool shadow_pairs_open(ShadowPairs *pairs, int count, Message *message)
         if (!grow(&pairs->boxes, sizeof *pairs->boxes, count) ||
             !grow(&pairs->placed, sizeof *pairs->placed, count) ||
             !grow(&pairs->receives, sizeof *pairs->receives, count) ||
-            !grow(&pairs->throws, sizeof *pairs->throws, count))
+            !grow(&pairs->throws, sizeof *pairs->throws, count) ||
+            !grow(&pairs->reached, sizeof *pairs->reached, count))
             return message_set(message, "shadows: not enough memory for %d objects", count);
         pairs->capacity = count;
     }
@@ -38,6 +40,7 @@ void shadow_pairs_close(ShadowPairs *pairs)
     free(pairs->placed);
     free(pairs->receives);
     free(pairs->throws);
+    free(pairs->reached);
     *pairs = (ShadowPairs){.count = 0};
 }
 
@@ -55,13 +58,24 @@ bool cone_misses(const Light *light, Sphere sphere)
     return across * cos(angle) - along * sin(angle) > sphere.radius * (1 + 1e-9);
 }
 
+double nearest_to(const Light *light, Sphere sphere)
+{
+    return fmax(vec3_length(vec3_subtract(sphere.center, light->position)) - sphere.radius, 0);
+}
+
+bool beyond_range(const Light *light, Sphere sphere)
+{
+    return light->range > 0 && nearest_to(light, sphere) > light->range * (1 + 1e-6);
+}
+
 /* One light's search. */
 typedef struct Search {
     ShadowPairs *pairs;
     const Scene *scene;
     Light light; /* in the world */
     uint32_t bit;
-    int last; /* where a partner was found */
+    int count; /* of `reached` */
+    int last;  /* where a partner was found */
 } Search;
 
 static bool casts(const Light *light)
@@ -70,12 +84,16 @@ static bool casts(const Light *light)
            !(color_is_black(light->diffuse) && color_is_black(light->specular));
 }
 
-/* Whether the cone of a spot misses an object. */
-static bool misses(const Search *search, int object)
+static void find_reached(Search *search)
 {
-    return search->light.kind == LIGHT_SPOT &&
-           cone_misses(&search->light, scene_sphere(&search->scene->objects[object],
-                                                    &search->pairs->boxes[object]));
+    const Light *light = &search->light;
+    for (int i = 0; i < search->pairs->count; i++) {
+        const Sphere sphere = scene_sphere(&search->scene->objects[i], &search->pairs->boxes[i]);
+        if ((light->kind == LIGHT_SPOT && cone_misses(light, sphere)) ||
+            (light->kind != LIGHT_DIRECTIONAL && beyond_range(light, sphere)))
+            continue;
+        search->pairs->reached[search->count++] = i;
+    }
 }
 
 /* Whether spheres around both show that the occluder is beside, behind or beyond all that lies
@@ -94,7 +112,8 @@ static bool far_apart(const PlacedBox *occluder, const PlacedBox *receiver, Vec4
     return vec3_dot(rest, rest) > apart * apart;
 }
 
-/* An object that is convex does not shadow itself: where N.L > 0 it sees the light. */
+/* Both are reached. An object that is convex does not shadow itself: where N.L > 0 it sees the
+ * light. */
 static bool may_fall(const Search *search, int occluder, int receiver)
 {
     const PlacedBox *placed = search->pairs->placed;
@@ -102,9 +121,8 @@ static bool may_fall(const Search *search, int occluder, int receiver)
     if (search->scene->objects[occluder].lamp)
         return false;
     if (occluder == receiver)
-        return !object_is_convex(&search->scene->objects[occluder]) && !misses(search, occluder);
-    return !far_apart(&placed[occluder], &placed[receiver], place) && !misses(search, occluder) &&
-           !misses(search, receiver) &&
+        return !object_is_convex(&search->scene->objects[occluder]);
+    return !far_apart(&placed[occluder], &placed[receiver], place) &&
            may_come_between(&placed[occluder], &placed[receiver], place);
 }
 
@@ -115,8 +133,8 @@ static void find_partner(Search *search, int object, bool throwing)
     ShadowPairs *pairs = search->pairs;
     if ((throwing ? pairs->throws : pairs->receives)[object] & search->bit)
         return;
-    for (int k = -1; k < pairs->count; k++) {
-        const int other = k < 0 ? search->last : k;
+    for (int k = -1; k < search->count; k++) {
+        const int other = k < 0 ? search->last : pairs->reached[k];
         const int occluder = throwing ? object : other, receiver = throwing ? other : object;
         if (!may_fall(search, occluder, receiver))
             continue;
@@ -134,16 +152,17 @@ void shadow_pairs_find(ShadowPairs *pairs, const Scene *scene)
     for (int i = 0; i < pairs->count; i++)
         pairs->receives[i] = pairs->throws[i] = 0;
     for (int l = 0; l < scene->light_count && l < SCENE_MAX_CASTING && pairs->count > 0; l++) {
-        Search search = {pairs, scene, scene_world_light(scene, l), (uint32_t)1 << l, 0};
+        Search search = {pairs, scene, scene_world_light(scene, l), (uint32_t)1 << l, 0, 0};
         /* What is seen from the eye sees a light there. */
         const Vec3 to_eye = vec3_subtract(search.light.position, scene->camera.eye);
         if (!casts(&scene->lights[l]) ||
             (search.light.kind != LIGHT_DIRECTIONAL && vec3_length(to_eye) == 0))
             continue;
-        for (int i = 0; i < pairs->count; i++)
-            find_partner(&search, i, true);
-        search.last = 0;
-        for (int i = 0; i < pairs->count; i++)
-            find_partner(&search, i, false);
+        find_reached(&search);
+        for (int turn = 0; turn < 2 && search.count > 0; turn++) {
+            search.last = pairs->reached[0];
+            for (int i = 0; i < search.count; i++)
+                find_partner(&search, pairs->reached[i], turn == 0);
+        }
     }
 }

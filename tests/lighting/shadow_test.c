@@ -502,6 +502,12 @@ TEST_WITH(0, shadows_may_overlap, open_meshes, close_meshes)
 {
     make_eight_lights();
     assert_true(check("overlapping", &world.scene));
+    /* From nothing to all of the floor: what is beyond a light's range casts no shadow of it. */
+    const long long made = lighting_counts(lighting).volumes_made;
+    for (int i = 0; i < 8; i++)
+        world.lights[i].range = 2 + 0.7 * i;
+    assert_true(check("overlapping in their ranges", &world.scene));
+    assert_in_range(lighting_counts(lighting).volumes_made - made, 1, 15);
 }
 
 static long long volumes_made(void)
