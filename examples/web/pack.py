@@ -156,14 +156,22 @@ def summary(folder, name):
     return re.search(r'^    \.summary = "(.*)",$', text, re.MULTILINE).group(1)
 
 
+def compared(path, name):
+    """The lines of a file that count: of C neither comments nor what --help says, as in lessons."""
+    text = read(root / (path % name)).replace(name, "NAME")
+    if path.endswith(".c"):
+        text = re.sub(r"/\*.*?\*/", "", text[:text.index("const Example ")], flags=re.DOTALL)
+    return [line.rstrip() for line in text.splitlines() if line.strip()]
+
+
 def diff(before, after):
     """Of a program and its shaders with those of its predecessor, names aside."""
     lines = []
     for path in ("examples/lecture/%s.c", "shaders/lecture/%s.vert", "shaders/lecture/%s.frag"):
-        old, new = (read(root / (path % name)).replace(name, "NAME").splitlines() for name in (before, after))
-        changes = list(difflib.unified_diff(old, new, path % before, path % after, n=2, lineterm=""))
+        changes = difflib.unified_diff(compared(path, before), compared(path, after), path % before, path % after, n=2, lineterm="")
+        changes = ["\u22ef" if line.startswith("@@") else line for line in changes]
         for line in changes or [path % after + ": the same"]:
-            tag = {"+": "ins", "-": "del"}.get(line[0])
+            tag = None if line[:4] in ("--- ", "+++ ") else {"+": "ins", "-": "del"}.get(line[0])
             text = html.escape(line)
             lines.append(f"<{tag}>{text}</{tag}>" if tag else text)
     return "\n".join(lines)
