@@ -250,10 +250,10 @@ def divided_at_vertices():
 
 
 def read(lab):
-    """A submission that is right; "_apart" is another form of it."""
+    """A submission that is right; "_apart" and "_terms" are other forms of it."""
     folder = os.path.join(SOLUTIONS, NAMES[lab])
     texts = {}
-    for name in sorted(name for name in os.listdir(folder) if "_apart" not in name):
+    for name in sorted(name for name in os.listdir(folder) if "_" not in name):
         with open(os.path.join(folder, name)) as file:
             texts[name] = file.read()
     return texts

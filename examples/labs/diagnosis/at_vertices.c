@@ -16,6 +16,7 @@ typedef struct Blend {
     const Values *corners; /* of the right program, at each corner */
     const double *weights;
     int node, turn; /* whose value is interpolated; how often it was reached */
+    bool unit;      /* what is interpolated is normalized again */
 } Blend;
 
 /* The value of the node's next turn at a corner; NULL: it is not reached as often there. */
@@ -39,12 +40,18 @@ static void interpolate(GlslRun *run, const GlslEvent *event, void *observer)
         for (int k = 0; k < event->count && numbers; k++)
             run->registers[event->first + k] += blend->weights[c] * numbers[k];
     }
+    double *to = run->registers + event->first, square = 0;
+    for (int k = 0; k < event->count && blend->unit; k++)
+        square += to[k] * to[k];
+    for (int k = 0; k < event->count && square > 0; k++)
+        to[k] /= sqrt(square);
     blend->turn++;
 }
 
-/* How far the submission is from the right program with this value interpolated; more than
- * `enough`: no further points are looked at. */
-static double apart_with(Derivation *all, Values corners[POINT_CORNERS], int node, double enough)
+/* How far the submission is from the right program with this value interpolated, as it is or
+ * normalized again; more than `enough`: no further points are looked at. */
+static double apart_with(Derivation *all, Values corners[POINT_CORNERS], int node, bool unit,
+                         double enough)
 {
     GlslRun *run = all->right[1].run;
     double apart = 0;
@@ -56,7 +63,7 @@ static double apart_with(Derivation *all, Values corners[POINT_CORNERS], int nod
             values_trace(&all->points, &all->right[0], &all->right[1], point, &corners[c]);
         }
         all->points.corner = 0;
-        Blend blend = {corners, all->points.items[point].weights, node, 0};
+        Blend blend = {corners, all->points.items[point].weights, node, 0, unit};
         run->assigned = interpolate;
         run->observer = &blend;
         points_run(&all->points, &all->right[0], &all->right[1], point, numbers);
@@ -64,6 +71,13 @@ static double apart_with(Derivation *all, Values corners[POINT_CORNERS], int nod
         apart = fmax(apart, points_apart(numbers, all->wanted[point]));
     }
     return apart;
+}
+
+static bool is_unit(const Values *values, int number)
+{
+    const double *v = values->items[number].numbers;
+    return values->items[number].size == 3 &&
+           fabs(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] - 1) < 1e-6;
 }
 
 bool at_vertices_explain(Derivation *all, Verdict *verdict)
@@ -75,9 +89,10 @@ bool at_vertices_explain(Derivation *all, Verdict *verdict)
     for (int i = values->count - 1; i >= 0 && !found; i--) {
         const char *what =
             all->right[values->items[i].stage].tree->symbols[values->items[i].symbol].name;
-        found = values->items[i].stage == GLSL_FRAGMENT &&
-                apart_with(all, values + 1, values->items[i].node, DERIVATION_EQUAL) <=
-                    DERIVATION_EQUAL;
+        for (int unit = 0; unit <= is_unit(values, i) && !found; unit++)
+            found = values->items[i].stage == GLSL_FRAGMENT &&
+                    apart_with(all, values + 1, values->items[i].node, unit, DERIVATION_EQUAL) <=
+                        DERIVATION_EQUAL;
         if (!found)
             continue;
         const bool light = strcmp(what, "gl_FragColor") == 0;
@@ -242,7 +257,8 @@ void at_vertices_report(const LabPictures *pictures, FILE *file, Message *messag
     for (int i = 0; i < values->count; i++) {
         if (values->items[i].stage != GLSL_FRAGMENT)
             continue;
-        const double apart = 255 * apart_with(all, values + 1, values->items[i].node, steps / 255);
+        const double apart =
+            255 * apart_with(all, values + 1, values->items[i].node, false, steps / 255);
         if (apart > 255 * DERIVATION_EQUAL && apart <= steps)
             fprintf(file, "  at the vertices: %s, at most %.2f steps\n",
                     all->right[1].tree->symbols[values->items[i].symbol].name, apart);

@@ -25,6 +25,7 @@ typedef struct Found {
     const struct Found *first; /* NULL: one */
     GlslStage stage;
     char *text;
+    char where[MUTATION_TEXT]; /* of a right program's: on which condition, or "" */
     double apart;
     int shared; /* of the submission's values */
     int other;  /* operations and names that the submission has more or less often */
@@ -210,7 +211,12 @@ PartState wrong_part_judge(Derivation *all, const Term *term);
  * and says it. */
 void first_wrong_find(Derivation *all, Verdict *verdict, FirstWrong *first);
 
-/* Says which terms are right or wrong and, if one value alone explains all, which. */
+/* Says which terms are right or wrong: those in `wrong`, the first in *first. False: none can be
+ * told. */
+bool wrong_part_say(Derivation *all, Verdict *verdict, char wrong[VERDICT_SENTENCE_SIZE],
+                    Term *first);
+
+/* The same and, if one value alone explains all, which. */
 void wrong_part_describe(Derivation *all, Verdict *verdict);
 
 #endif

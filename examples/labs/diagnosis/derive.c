@@ -241,6 +241,21 @@ static void take_found(Derivation *all, Found *found)
     all->best = *found;
 }
 
+/* The condition on which the node is reached in its function, or "". */
+static void condition_of(const GlslTree *tree, int wanted, char text[MUTATION_TEXT])
+{
+    text[0] = '\0';
+    for (int i = 1; i < tree->node_count; i++) {
+        const int condition = tree->nodes[i].first;
+        if (tree->nodes[i].kind != GLSL_IF ||
+            !mend_holds(tree, tree->nodes[condition].next, wanted))
+            continue;
+        char *printed = glsl_print(tree, condition);
+        snprintf(text, MUTATION_TEXT, "%s", printed);
+        free(printed);
+    }
+}
+
 static bool try_mutant(void *context, const Mutation *mutation, const char *text)
 {
     Derivation *all = context;
@@ -252,6 +267,7 @@ static bool try_mutant(void *context, const Mutation *mutation, const char *text
     found.apart = distance(all, pair);
     point_shader_close(&shader);
     if (found.apart <= EQUAL) {
+        condition_of(all->right[all->stage].tree, mutation->node, found.where);
         found.text = memory_text(text);
         take_found(all, &found);
     }
@@ -297,21 +313,38 @@ static void find_place(Derivation *all, const Found *found)
     free(values);
 }
 
-/* After a colon the right program's words become the submission's, if the place is known; of one of
- * two mistakes it is not. */
-static void add(const Mutation *mutation, const char *place, bool alone, double sure,
-                Verdict *verdict)
+/* After a colon the right program's words become the submission's at the place, if that is known.
+ */
+static void name_mutation(const Mutation *mutation, const char *place, char name[MUTATION_TEXT * 2])
 {
-    char name[VERDICT_SENTENCE_SIZE], sentence[VERDICT_SENTENCE_SIZE];
-    const char *colon = strstr(mutation->name, ": "), *own = alone ? strstr(place, ": ") : NULL;
-    snprintf(name, sizeof name, "%.*s%.250s",
-             (int)(colon && own ? colon - mutation->name : MUTATION_TEXT), mutation->name,
-             colon && own ? own : "");
-    snprintf(sentence, sizeof sentence,
-             "%s%sIt draws what the right program draws with %s instead of %s.", mutation->sentence,
-             mutation->sentence[0] ? " " : "", mutation->by[0] ? mutation->by : "nothing",
-             mutation->was);
+    const char *colon = strstr(mutation->name, ": "), *own = place ? strstr(place, ": ") : NULL;
+    const bool number = !mutation->was[strspn(mutation->was, ".0123456789")];
+    const bool both = colon && own && !number; /* which the submission may not have */
+    snprintf(name, MUTATION_TEXT * 2, "%.*s%.190s",
+             (int)(both ? colon - mutation->name : MUTATION_TEXT), mutation->name, both ? own : "");
+}
+
+/* Of one of two mistakes the place is not known. */
+static void add(const Found *found, const char *place, bool alone, double sure, Verdict *verdict)
+{
+    const Mutation *mutation = &found->mutation;
+    char name[MUTATION_TEXT * 2], sentence[VERDICT_SENTENCE_SIZE];
+    name_mutation(mutation, alone ? place : NULL, name);
+    snprintf(
+        sentence, sizeof sentence,
+        "%s%sIt draws what the solution would draw if it had %.120s where it has %.120s%s%.120s.",
+        mutation->sentence, mutation->sentence[0] ? " " : "",
+        mutation->by[0] ? mutation->by : "nothing", mutation->was,
+        found->where[0] ? ", where " : "", found->where);
     verdict_add_mistake(verdict, name, sentence, place, sure);
+}
+
+/* Whether it undoes something by a formula around it, and has no name: 2 c - 1 for c. */
+static bool wraps(const Mutation *mending)
+{
+    const size_t length = strlen(mending->was);
+    return strncmp(mending->mends, mending->was, length) == 0 &&
+           strncmp(mending->mends + length, " for ", 5) == 0 && strstr(mending->by, mending->was);
 }
 
 /* The line that has to change, and to what. */
@@ -320,8 +353,11 @@ static void say_mending(Derivation *all, const Found *found, Verdict *verdict)
     const Mutation *mending = &found->mutation, *best = &all->best.mutation;
     const bool sole = all->mended_twice ? all->unique : all->mending.apart <= EQUAL;
     const bool known = all->best.text && best->general && all->unique && all->mending.there;
+    const bool likelier = known && best->rank < mending->rank && wraps(mending);
     char place[VERDICT_SENTENCE_SIZE], sentence[VERDICT_SENTENCE_SIZE], look[VERDICT_SENTENCE_SIZE];
+    char name[MUTATION_TEXT * 2];
     derivation_place(all, found->stage, mending->node, place, sizeof place);
+    name_mutation(best, place, name);
     snprintf(look, sizeof look, "%.250s; all is right with %s%s", place,
              mending->by[0] ? mending->by : "nothing there",
              all->mended_twice ? " and the other change" : "");
@@ -330,7 +366,7 @@ static void say_mending(Derivation *all, const Found *found, Verdict *verdict)
              mending->by[0] ? mending->by : "nothing", mending->was,
              all->mended_twice ? ", once the other mistake is mended, too" : "");
     change_take_text(all, found,
-                     verdict_add_mistake(verdict, mending->mends, sentence, look,
+                     verdict_add_mistake(verdict, likelier ? name : mending->mends, sentence, look,
                                          known || sole ? UNIQUE : ONE_OF_SEVERAL));
 }
 
@@ -363,8 +399,9 @@ static void say(Derivation *all, Verdict *verdict)
         else
             snprintf(look, sizeof look, "where %s should be", found->mutation.was);
         if (found->first)
-            add(&found->first->mutation, look, false, sure, verdict);
-        add(&found->mutation, look, !found->first && is_inside(all), sure, verdict);
+            add(found->first, look, false, sure, verdict);
+        add(found, look, !found->first && is_inside(all), sure, verdict);
+        wrong_part_say(all, verdict, look, &(Term){.without = 0});
     }
     const bool same = found->first && found->first->mutation.rank == found->mutation.rank;
     snprintf(verdict->message, sizeof verdict->message, "%s%s%s%s",
@@ -385,13 +422,13 @@ bool derive_use_right(Derivation *all, const char *ending, LitAt lit)
     return true;
 }
 
-static const char *const ENDINGS[] = {"_apart", ""};
+static const char *const ENDINGS[] = {"_apart", "", "_terms"}; /* the last for what is left */
 
 /* One mutation of each right program. */
 static bool search(Derivation *all)
 {
     bool seen = false; /* the vertex shaders of both */
-    for (int i = 0; i < 4 && !all->best.text; i++) {
+    for (int i = 0; i < 6 && !all->best.text; i++) {
         const LitAt lit = i % 2 ? LIT_AT_POINTS : LIT_AT_VERTICES;
         /* Where it computes what is right, it is wrong by what is undefined, or by precision. */
         if ((i % 2 && !all->lab->either) || !derive_use_right(all, ENDINGS[i / 2], lit) ||

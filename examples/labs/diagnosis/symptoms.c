@@ -48,8 +48,8 @@ static void compare_sides(const Overview *overview, Verdict *verdict)
                             dark < 0 ? "dark" : "bright", fabs(dark));
     if (fabs(bright) < 1 && fabs(dark) < 1 && overview->pixels > 0)
         verdict_add_symptom(verdict,
-                            "The average brightness is right, but light and shade are in the "
-                            "wrong places.");
+                            "The average brightness is right, but single places are too bright or "
+                            "too dark.");
 }
 
 /* The pixel with the largest error, in the worst scene. */
@@ -102,8 +102,10 @@ void symptoms_describe(const LabPictures *pictures, bool moved, Verdict *verdict
     const bool budget = pictures->lab->budget;
     if (moved || !budget)
         verdict_add_symptom(verdict, "%s",
-                            moved ? "The outline is wrong: check gl_Position first."
-                                  : "The outline is right: the mistake is in the light.");
+                            !moved ? "The outline is right: the mistake is in the light."
+                            : pictures->lab->given
+                                ? "The outline is wrong: check the model matrix first."
+                                : "The outline is wrong: check gl_Position first.");
     compare_sides(&overview, verdict);
     point_at_worst(pictures, verdict);
 }

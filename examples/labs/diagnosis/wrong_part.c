@@ -157,7 +157,8 @@ static int find_repair(Derivation *all, const Values *rights, const Values *own,
     const Values *right = &rights[all->order[0]];
     for (int i = 0; i < own->count; i++) {
         const GlslTree *tree = all->own[own->items[i].stage].tree;
-        if (is_result(tree->symbols[own->items[i].symbol].name))
+        if (is_result(tree->symbols[own->items[i].symbol].name) ||
+            own->items[i].scalar != GLSL_FLOAT) /* another turn of a loop explains nothing */
             continue;
         for (int k = 0; k < right->count; k++) {
             const GlslTree *other = all->right[right->items[k].stage].tree;
@@ -204,29 +205,40 @@ static bool find_line(Derivation *all, int without, char place[VERDICT_SENTENCE_
     return at >= 0;
 }
 
-void wrong_part_describe(Derivation *all, Verdict *verdict)
+bool wrong_part_say(Derivation *all, Verdict *verdict, char wrong[VERDICT_SENTENCE_SIZE],
+                    Term *first)
 {
     Term terms[MAX_TERMS];
-    int states[MAX_TERMS], first = -1;
+    int states[MAX_TERMS];
+    char right[256];
+    wrong[0] = '\0';
     if (!derive_use_right(all, "", LIT_NEAREST) || all->wrong_by <= 4 * DERIVATION_EQUAL)
-        return;
-    char right[256], wrong[256], place[VERDICT_SENTENCE_SIZE] = "";
+        return false;
     const int count = wrong_part_list(all->lab, terms);
     for (int i = 0; i < count; i++)
         states[i] = (int)wrong_part_judge(all, &terms[i]);
     for (int i = count; i-- > 0;)
-        first = states[i] == PART_WRONG ? i : first;
+        *first = states[i] == PART_WRONG ? terms[i] : *first;
     list_names(terms, states, count, PART_RIGHT, right);
     list_names(terms, states, count, PART_WRONG, wrong);
     if (wrong[0])
         verdict_add_symptom(verdict, "Wrong, each seen alone: %s.", wrong);
     if (right[0])
         verdict_add_symptom(verdict, "Right, each seen alone: %s.", right);
+    return true;
+}
+
+void wrong_part_describe(Derivation *all, Verdict *verdict)
+{
+    char wrong[VERDICT_SENTENCE_SIZE], place[VERDICT_SENTENCE_SIZE] = "";
+    Term first = {.without = 0};
+    if (!wrong_part_say(all, verdict, wrong, &first))
+        return;
     if (find_line(all, 0, place))
         verdict_add_symptom(verdict, "With another value there all would be right: %s.", place);
-    else if (first >= 0 && find_line(all, terms[first].without, place))
-        verdict_add_symptom(verdict, "With another value there %s would be right: %s.",
-                            terms[first].name, place);
-    snprintf(verdict->message, sizeof verdict->message, "Unknown mistake%s%s%s%s",
+    else if (wrong[0] && find_line(all, first.without, place))
+        verdict_add_symptom(verdict, "With another value there %s would be right: %s.", first.name,
+                            place);
+    snprintf(verdict->message, sizeof verdict->message, "Unknown mistake%s%.250s%s%.200s",
              wrong[0] ? " in " : "", wrong, place[0] ? ", " : "", place);
 }
