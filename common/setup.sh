@@ -7,7 +7,7 @@
 # Sets $root, the source tree, and $build, the build folder: LIGHTING_BUILD in the environment, or
 # build/ in the source tree; where that cannot be written and is not up to date, a folder in the user's
 # cache. Nothing here uses the network when nothing is missing. $cross, if set, is the file of another
-# machine, for which meson is to build: the browser's.
+# machine, for which meson is to build: the browser's. $meson_options, if set, are for it; the build folder keeps them.
 
 root=$(CDPATH='' cd -- "${self%/*}/.." && pwd -P) || exit 1
 build=${LIGHTING_BUILD:-$root/build}
@@ -39,6 +39,10 @@ packages_to_test="libcmocka-dev libosmesa6-dev glslang-tools python3 libwebpdemu
 poppler-utils"
 # tests/run --long: what the pages show of several processes and machines.
 packages_to_cluster="make munge parallel slurm-client slurmctld slurmd"
+# tests/run, and its long form:
+packages_of_tests="$packages_to_draw $packages_to_window $packages_to_model $packages_to_convert $packages_to_animate \
+$packages_to_diagram $packages_to_study $packages_to_measure $packages_to_check $packages_to_test"
+packages_of_long_tests="$packages_of_tests $packages_to_cluster $packages_to_web $packages_to_browse"
 # What a release may not have; without it some tests are skipped. OSMesa left Mesa with 25.1.
 packages_optional="libosmesa6-dev node-qrcode-generator zbar-tools $packages_to_cluster"
 
@@ -335,7 +339,7 @@ setup_configure() {
     [ -f "$build/build.ninja" ] && again=--reconfigure
     log=$(mktemp) || exit 1
     # shellcheck disable=SC2086
-    if ! meson setup $again ${cross:+--cross-file "$cross"} "$build" "$root" >"$log" 2>&1; then
+    if ! meson setup $again ${cross:+--cross-file "$cross"} ${meson_options-} "$build" "$root" >"$log" 2>&1; then
         fail_of_future
         tail -n 20 "$log" >&2
         rm -f "$log"
