@@ -60,12 +60,14 @@ SMALL = ("-s", "40x40")
 # Seconds after which a program counts as hanging, also on a busy machine.
 PATIENCE = 600
 LONG = int(os.environ.get("LIGHTING_TEST_LONG") or 0)
+SAMPLE = "LIGHTING_TEST_SAMPLE" in os.environ  # as tests/systems/run --sample sets it
 
 
 def step(number):
     """Of many similar cases: the short form takes every `2 * number`-th, the long one every LIGHTING_TEST_LONG-th at
-    least, which tests/run sets; AddressSanitizer, which needs code rather than cases, an eighth of the short one's."""
-    return min(LONG, 2 * number) if LONG else 16 * number if SANITIZED else 2 * number
+    least, which tests/run sets; AddressSanitizer, which needs code rather than cases, and another system an eighth of the
+    short one's."""
+    return min(LONG, 2 * number) if LONG else 16 * number if SANITIZED or SAMPLE else 2 * number
 
 
 def in_long_form(test):

@@ -32,7 +32,8 @@ int testing_step(int step)
     const int every = everything ? atoi(everything) : 0;
     if (every > 0)
         return every < 2 * step ? every : 2 * step;
-    const bool few = getenv("ASAN_OPTIONS") || (backend && strcmp(backend, "osmesa") == 0);
+    const bool few = getenv("ASAN_OPTIONS") || getenv("LIGHTING_TEST_SAMPLE") ||
+                     (backend && strcmp(backend, "osmesa") == 0);
     return few ? 4 * step : 2 * step;
 }
 

@@ -33,9 +33,10 @@ CONFIRM = "window.asked = []; window.confirm = text => { asked.push(text); retur
 LONG = int(os.environ.get("LIGHTING_TEST_LONG") or 1)
 
 
-def part(things, first=0):
-    """Of many similar cases, every LIGHTING_TEST_LONG-th; all without."""
-    return list(things)[first % LONG::LONG]
+def part(things, first=0, fewer=1):
+    """Of many similar cases, every LIGHTING_TEST_LONG-th, or of those that cost most `fewer` times as few; all without."""
+    every = LONG * fewer if LONG > 1 else 1
+    return list(things)[first % every::every]
 
 
 def make():
