@@ -84,16 +84,23 @@ static bool casts(const Light *light)
            !(color_is_black(light->diffuse) && color_is_black(light->specular));
 }
 
-static void find_reached(Search *search)
+/* Whether the light ends somewhere, and before the object. */
+static bool misses(const Search *search, int object)
 {
     const Light *light = &search->light;
-    for (int i = 0; i < search->pairs->count; i++) {
-        const Sphere sphere = scene_sphere(&search->scene->objects[i], &search->pairs->boxes[i]);
-        if ((light->kind == LIGHT_SPOT && cone_misses(light, sphere)) ||
-            (light->kind != LIGHT_DIRECTIONAL && beyond_range(light, sphere)))
-            continue;
-        search->pairs->reached[search->count++] = i;
-    }
+    const bool spot = light->kind == LIGHT_SPOT;
+    if (!spot && (light->kind == LIGHT_DIRECTIONAL || light->range == 0))
+        return false;
+    const Sphere sphere =
+        scene_sphere(&search->scene->objects[object], &search->pairs->boxes[object]);
+    return (spot && cone_misses(light, sphere)) || beyond_range(light, sphere);
+}
+
+static void find_reached(Search *search)
+{
+    for (int i = 0; i < search->pairs->count; i++)
+        if (!misses(search, i))
+            search->pairs->reached[search->count++] = i;
 }
 
 /* Whether spheres around both show that the occluder is beside, behind or beyond all that lies

@@ -28,6 +28,19 @@ static const double *value_at(const Values *values, int node, int turn)
     return NULL;
 }
 
+static double square_of(const double *v, int count)
+{
+    double square = 0;
+    for (int k = 0; k < count; k++)
+        square += v[k] * v[k];
+    return square;
+}
+
+static bool is_unit(const double *v)
+{
+    return fabs(square_of(v, 3) - 1) < 1e-9;
+}
+
 static void interpolate(GlslRun *run, const GlslEvent *event, void *observer)
 {
     Blend *blend = observer;
@@ -40,11 +53,10 @@ static void interpolate(GlslRun *run, const GlslEvent *event, void *observer)
         for (int k = 0; k < event->count && numbers; k++)
             run->registers[event->first + k] += blend->weights[c] * numbers[k];
     }
-    double *to = run->registers + event->first, square = 0;
-    for (int k = 0; k < event->count && blend->unit; k++)
-        square += to[k] * to[k];
-    for (int k = 0; k < event->count && square > 0; k++)
-        to[k] /= sqrt(square);
+    double *to = run->registers + event->first;
+    const double length = blend->unit ? sqrt(square_of(to, event->count)) : 0;
+    for (int k = 0; k < event->count && length > 0; k++)
+        to[k] /= length;
     blend->turn++;
 }
 
@@ -73,13 +85,6 @@ static double apart_with(Derivation *all, Values corners[POINT_CORNERS], int nod
     return apart;
 }
 
-static bool is_unit(const Values *values, int number)
-{
-    const double *v = values->items[number].numbers;
-    return values->items[number].size == 3 &&
-           fabs(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] - 1) < 1e-6;
-}
-
 bool at_vertices_explain(Derivation *all, Verdict *verdict)
 {
     Values *values = memory_new(1 + POINT_CORNERS, sizeof *values);
@@ -89,7 +94,8 @@ bool at_vertices_explain(Derivation *all, Verdict *verdict)
     for (int i = values->count - 1; i >= 0 && !found; i--) {
         const char *what =
             all->right[values->items[i].stage].tree->symbols[values->items[i].symbol].name;
-        for (int unit = 0; unit <= is_unit(values, i) && !found; unit++)
+        const bool units = values->items[i].size == 3 && is_unit(values->items[i].numbers);
+        for (int unit = 0; unit <= units && !found; unit++)
             found = values->items[i].stage == GLSL_FRAGMENT &&
                     apart_with(all, values + 1, values->items[i].node, unit, DERIVATION_EQUAL) <=
                         DERIVATION_EQUAL;
@@ -142,23 +148,21 @@ static void blend(GlslRun *run, const GlslEvent *event, void *observer)
 {
     Varying *varying = observer;
     const int each = varying->count / POINT_CORNERS, at = varying->at++ % each;
-    double mixed[4] = {0}, length = 0, *to = run->registers + event->first;
+    double mixed[4] = {0}, *to = run->registers + event->first;
     bool unit = event->count == 3;
     for (int c = 0; c < POINT_CORNERS; c++) {
         const double *numbers = varying->numbers[c * each + at];
         for (int k = 0; k < event->count && k < 4; k++)
             mixed[k] += varying->weights[c] * numbers[k];
-        unit &= fabs(numbers[0] * numbers[0] + numbers[1] * numbers[1] + numbers[2] * numbers[2] -
-                     1) < 1e-9;
+        unit &= is_unit(numbers);
     }
     if (event->symbol == varying->symbol && at >= varying->from)
         varying->bent |= event->count != 3 || !is_parallel(mixed, to);
     if (event->count > 4 || at >= varying->from)
         return;
-    for (int k = 0; k < 3 && unit; k++)
-        length += mixed[k] * mixed[k];
+    const double length = unit ? sqrt(square_of(mixed, 3)) : 0;
     for (int k = 0; k < event->count; k++)
-        to[k] = mixed[k] / (length > 0 ? sqrt(length) : 1);
+        to[k] = mixed[k] / (length > 0 ? length : 1);
 }
 
 /* Runs the submission with the varying as it is computed at the point, and all others as they are.

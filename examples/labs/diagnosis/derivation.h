@@ -211,10 +211,15 @@ PartState wrong_part_judge(Derivation *all, const Term *term);
  * and says it. */
 void first_wrong_find(Derivation *all, Verdict *verdict, FirstWrong *first);
 
-/* Says which terms are right or wrong: those in `wrong`, the first in *first. False: none can be
- * told. */
-bool wrong_part_say(Derivation *all, Verdict *verdict, char wrong[VERDICT_SENTENCE_SIZE],
-                    Term *first);
+/* The terms that are wrong. */
+typedef struct WrongParts {
+    bool told; /* which, if any */
+    char names[256];
+    Term first;
+} WrongParts;
+
+/* Says which terms are right or wrong. */
+WrongParts wrong_part_say(Derivation *all, Verdict *verdict);
 
 /* The same and, if one value alone explains all, which. */
 void wrong_part_describe(Derivation *all, Verdict *verdict);

@@ -401,7 +401,7 @@ static void say(Derivation *all, Verdict *verdict)
         if (found->first)
             add(found->first, look, false, sure, verdict);
         add(found, look, !found->first && is_inside(all), sure, verdict);
-        wrong_part_say(all, verdict, look, &(Term){.without = 0});
+        wrong_part_say(all, verdict);
     }
     const bool same = found->first && found->first->mutation.rank == found->mutation.rank;
     snprintf(verdict->message, sizeof verdict->message, "%s%s%s%s",

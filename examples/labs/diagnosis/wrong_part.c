@@ -205,40 +205,41 @@ static bool find_line(Derivation *all, int without, char place[VERDICT_SENTENCE_
     return at >= 0;
 }
 
-bool wrong_part_say(Derivation *all, Verdict *verdict, char wrong[VERDICT_SENTENCE_SIZE],
-                    Term *first)
+WrongParts wrong_part_say(Derivation *all, Verdict *verdict)
 {
     Term terms[MAX_TERMS];
     int states[MAX_TERMS];
     char right[256];
-    wrong[0] = '\0';
+    WrongParts parts = {.told = false};
     if (!derive_use_right(all, "", LIT_NEAREST) || all->wrong_by <= 4 * DERIVATION_EQUAL)
-        return false;
+        return parts;
     const int count = wrong_part_list(all->lab, terms);
     for (int i = 0; i < count; i++)
         states[i] = (int)wrong_part_judge(all, &terms[i]);
     for (int i = count; i-- > 0;)
-        *first = states[i] == PART_WRONG ? terms[i] : *first;
+        parts.first = states[i] == PART_WRONG ? terms[i] : parts.first;
     list_names(terms, states, count, PART_RIGHT, right);
-    list_names(terms, states, count, PART_WRONG, wrong);
-    if (wrong[0])
-        verdict_add_symptom(verdict, "Wrong, each seen alone: %s.", wrong);
+    list_names(terms, states, count, PART_WRONG, parts.names);
+    if (parts.names[0])
+        verdict_add_symptom(verdict, "Wrong, each seen alone: %s.", parts.names);
     if (right[0])
         verdict_add_symptom(verdict, "Right, each seen alone: %s.", right);
-    return true;
+    parts.told = true;
+    return parts;
 }
 
 void wrong_part_describe(Derivation *all, Verdict *verdict)
 {
-    char wrong[VERDICT_SENTENCE_SIZE], place[VERDICT_SENTENCE_SIZE] = "";
-    Term first = {.without = 0};
-    if (!wrong_part_say(all, verdict, wrong, &first))
+    char place[VERDICT_SENTENCE_SIZE] = "";
+    const WrongParts parts = wrong_part_say(all, verdict);
+    const char *wrong = parts.names;
+    if (!parts.told)
         return;
     if (find_line(all, 0, place))
         verdict_add_symptom(verdict, "With another value there all would be right: %s.", place);
-    else if (wrong[0] && find_line(all, first.without, place))
-        verdict_add_symptom(verdict, "With another value there %s would be right: %s.", first.name,
-                            place);
-    snprintf(verdict->message, sizeof verdict->message, "Unknown mistake%s%.250s%s%.200s",
+    else if (wrong[0] && find_line(all, parts.first.without, place))
+        verdict_add_symptom(verdict, "With another value there %s would be right: %s.",
+                            parts.first.name, place);
+    snprintf(verdict->message, sizeof verdict->message, "Unknown mistake%s%s%s%s",
              wrong[0] ? " in " : "", wrong, place[0] ? ", " : "", place);
 }
