@@ -119,13 +119,13 @@ class Verdicts(OfLabs):
         self.open(mistakes.NAMES[5])
         cases = [("solution", lab, mistakes.read(lab)) for lab in SHADERS]
         cases += [("starter", lab, starter(lab)) for lab in SHADERS]
-        for name, lab, texts, expected in self.beside(part(undefined() + cases, 1) + made(18 * LONG if LONG > 1 else 12)):
+        for name, lab, texts, expected in self.beside(undefined() + part(cases, 1) + made(18 * LONG if LONG > 1 else 12)):
             with self.subTest(name, lab=lab):
                 self.assertEqual(said(self.judge(lab, texts)), said(expected))
         # Operations are counted; of the C, numbers are read.
         texts = mistakes.read(10)
         named = texts["budget.c"].replace("lices = 112;", "lices = SLICES;").replace("\nvoid", "\n#define SLICES 112\nvoid")
-        for text in part([texts["budget.c"], named, named.replace("#define SLICES 112", "").replace("{", "{ const int SLICES = 112;")], 1):
+        for text in (texts["budget.c"], named, named.replace("#define SLICES 112", "").replace("{", "{ const int SLICES = 112;")):
             verdict = self.judge(10, {**texts, "budget.c": text})
             self.assertEqual((verdict["verdict"], verdict["points"]), ("right", 10), text)
 
