@@ -65,11 +65,10 @@ int testing_run(int list, const char *name, CMFixtureFunction setup, CMFixtureFu
 /* Exit code of a test that this machine cannot run. */
 enum { EXIT_SKIPPED = 77 };
 
-/* Of many similar cases the short form of the tests takes every `2 * step`-th, on the second
- * backend, under AddressSanitizer and in the sample for another system every `4 * step`-th; the
- * long form every LIGHTING_TEST_LONG-th at least, which tests/run sets in the environment: with
- * --all to
- * 1. tests/systems/run --sample sets LIGHTING_TEST_SAMPLE. */
+/* Of many similar cases the short form of the tests takes every `2 * step`-th; on the second
+ * backend, under AddressSanitizer and with LIGHTING_TEST_SAMPLE, which tests/systems/run --sample
+ * sets, every `4 * step`-th; the long form every LIGHTING_TEST_LONG-th at least, which tests/run
+ * sets: with --all to 1. */
 int testing_step(int step);
 
 /* Of `count` random cases as many as with a step, at least one. */
