@@ -111,7 +111,7 @@ struct ExampleKind {
     bool (*write_vector)(const Example *example, double seconds, const VectorFile *file,
                          Message *message);
 
-    /* --save-scene; without a canvas. */
+    /* --save-scene; without a canvas. After success a message is a warning. */
     bool (*save)(const Example *example, const DrawRequest *request, const char *path,
                  Message *message);
 

@@ -3,12 +3,16 @@
 
 #include "app/picture_texts.h"
 #include "base/clock.h"
+#include "base/input.h"
+#include "base/memory.h"
 #include "base/output.h"
 #include "base/progress.h"
 
 #include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 bool frames_path(const Options *options, int number, char path[PATH_MAX], Message *message)
 {
@@ -52,21 +56,59 @@ double frames_moment(const Options *options, int i)
     return options->seconds + i / options->fps;
 }
 
-/* Draws picture `i`; or, of a part of an animation that is run again, keeps the file if it is what
- * would be drawn. The part's first picture is drawn in any case: only then is known which shader
- * files it reads. */
+/* Numbered pictures of a part have the same bytes as without parts. So what they were drawn from
+ * stands in a file beside them, FILE.I-of-N, which is written only when that has changed. */
+static bool note_sources(const Options *options, PictureSources *sources, Message *message)
+{
+    struct stat file;
+    size_t size;
+    Message none = {0};
+    char *path =
+        memory_format("%s.%d-of-%d", options->output, options->part.number, options->part.count);
+    char *before = input_whole(path, &size, &none);
+    const bool done = (before && strcmp(before, sources->text) == 0) ||
+                      output_write(path, sources->text, strlen(sources->text), message);
+    if (done && stat(path, &file) == 0)
+        sources->since = file.st_mtim;
+    free(before);
+    free(path);
+    return done;
+}
+
+/* Whether a picture may be kept when its part is run again. */
+static bool may_be_kept(const Options *options, const Picture *picture)
+{
+    char format[16];
+    return options->part.count && options->numbered && image_format(picture->path, format, NULL) &&
+           strcmp(format, "png") == 0;
+}
+
+static bool is_kept(const Example *example, const Options *options, PictureSources *sources,
+                    Picture *picture)
+{
+    const struct timespec *since = &sources->since;
+    struct stat file;
+    if (options->keeps)
+        picture_texts_sources(sources, example, options, picture);
+    else if (stat(picture->path, &file) != 0 || file.st_mtim.tv_sec < since->tv_sec ||
+             (file.st_mtim.tv_sec == since->tv_sec && file.st_mtim.tv_nsec < since->tv_nsec))
+        return false;
+    return picture_texts_kept(picture);
+}
+
+/* Draws picture `i`; or, of a part that is run again, keeps the file if it is what would be drawn.
+ * The part's first picture is drawn in any case: only then is known which shader files it reads. */
 static bool draw_frame(Renderer *renderer, const Options *options, int i, PictureSources *sources,
                        Picture *picture, Message *message)
 {
     const Example *example = renderer->example;
     const double seconds = frames_moment(options, i);
-    sources->kept = false;
     if (!frames_path(options, i, picture->path, message))
         return false;
-    if (options->keeps && sources->text[0]) {
+    const bool may = may_be_kept(options, picture);
+    if (may && sources->text[0]) {
         picture_texts_set(example, renderer->canvas, options, seconds, picture);
-        picture_texts_sources(sources, example, options, picture);
-        sources->kept = picture_texts_kept(picture);
+        sources->kept = is_kept(example, options, sources, picture);
     }
     if (sources->kept)
         return true;
@@ -74,9 +116,14 @@ static bool draw_frame(Renderer *renderer, const Options *options, int i, Pictur
     if (!renderer_picture(renderer, &request, seconds, &picture->image, message))
         return false;
     picture_texts_set(example, renderer->canvas, options, seconds, picture);
+    if (!may)
+        return true;
+    const int noted = sources->text[0] ? sources->files : -1;
+    picture_texts_sources(sources, example, options, picture);
     if (options->keeps)
-        picture_texts_sources(sources, example, options, picture);
-    return true;
+        return true;
+    picture->sources[0] = '\0';
+    return noted == sources->files || note_sources(options, sources, message);
 }
 
 bool frames_draw(Renderer *renderer, const Options *options, PictureQueue *queue, Message *message)

@@ -43,11 +43,11 @@ void shader_advise(const ShaderSource sources[2], int refused, Message *message)
         found->shader_advise(sources, refused, message);
 }
 
-/* Without macros, and functions but main, nothing grows. */
+/* Without macros, arrays, and functions but main, nothing grows. */
 static bool is_plain(const char *text)
 {
     const char *body = strchr(text, '{');
-    return !(body && strchr(body + 1, '{')) && !strstr(text, "define");
+    return !(body && strchr(body + 1, '{')) && !strstr(text, "define") && !strchr(text, '[');
 }
 
 bool shader_bounded(const ShaderSource *source, ShaderStage stage, double turns_max,

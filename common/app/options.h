@@ -31,7 +31,7 @@ typedef struct Options {
     bool numbered; /* --frames was given, and the output's name has a number */
     double fps;
     Part part;          /* of the pictures */
-    bool keeps;         /* the part's pictures say what they are drawn from; what matches is kept */
+    bool keeps;         /* the part's pictures say what they are drawn from */
     bool merge;         /* instead of drawing, put together what the parts have drawn */
     const char *format; /* of standard output: "png", "y4m", "rgb", "svg", "pdf"; NULL: not given */
     const char *vector; /* "svg" or "pdf", of a diagram; NULL: pixels */

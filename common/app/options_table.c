@@ -60,7 +60,7 @@ static const Parameter FIRST[] = {
      AT(fps), .programs = FILM},
     {"part",
      "draw only the I-th of N parts of --frames, for several processes or machines. Those "
-     "of an animation go to the folder FILE.parts as PNG; what is there already is kept. "
+     "of an animation go to the folder FILE.parts as PNG. PNG that are there already are kept. "
      "examples/run cluster does this for all parts",
      PARAMETER_TEXT, AT(part), .standard = "", .codec = &OPTION_PART,
      .programs = PROGRAM_ONE | PROGRAM_DIAGRAM | ASIDE},

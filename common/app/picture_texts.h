@@ -7,6 +7,8 @@
 #include "app/options.h"
 #include "images/picture_queue.h"
 
+#include <time.h>
+
 /* How the picture is to be encoded, and its texts: title, moment, driver and command. The caller
  * sets its path before. */
 void picture_texts_set(const Example *example, const Canvas *canvas, const Options *options,
@@ -16,8 +18,9 @@ void picture_texts_set(const Example *example, const Canvas *canvas, const Optio
  * that options name (a model) and the shader files that were read. Zeroed: not known yet. */
 typedef struct PictureSources {
     char text[PICTURE_SOURCES_SIZE];
-    int files; /* read shader files */
-    bool kept; /* the last picture was there already */
+    int files;             /* read shader files */
+    bool kept;             /* the last picture was there already */
+    struct timespec since; /* older files of pictures that do not say it were drawn from others */
 } PictureSources;
 
 /* Brings it up to date after drawing, and gives it to the picture. */

@@ -104,7 +104,11 @@ bool run_more(const Example *example, Options *options, const ParameterValue *de
         return run_check_first(options, message) && frames_write_vectors(example, options, message);
     if (options->save_scene) {
         const DrawRequest request = options_request(options, example);
-        return example_kind(example)->save(example, &request, options->save_scene, message);
+        const bool done =
+            example_kind(example)->save(example, &request, options->save_scene, message);
+        if (done && message->text[0])
+            options_warn(example->name, message);
+        return done;
     }
     if (!example_kind(example)->without_gl && !shader_loader_check(&options->shaders, message))
         return false;

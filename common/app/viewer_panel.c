@@ -50,7 +50,7 @@ static void choose_options(ViewerPanel *panel, const Canvas *canvas, Options *op
     int count = 0;
     const int common = options_table(&usage, options, OPTIONS_TO_SHOW, all);
     options_table(&usage, &usual, OPTIONS_TO_SHOW, of_usual);
-    for (size_t k = 0; k < sizeof NAMES / sizeof NAMES[0]; k++) {
+    for (size_t k = 0; k < sizeof NAMES / sizeof NAMES[0]; k++)
         for (int i = 0; i < common; i++) {
             if (strcmp(all[i].name, NAMES[k]) != 0)
                 continue;
@@ -59,7 +59,6 @@ static void choose_options(ViewerPanel *panel, const Canvas *canvas, Options *op
             if (all[i].value == &options->canvas.samples)
                 panel->options[count - 1].max = canvas_max_samples(canvas);
         }
-    }
     panel->options[count].name = NULL;
 }
 

@@ -1,6 +1,8 @@
 /* What a file is, is asked once it is open, so that it cannot be exchanged in between. */
 #include "base/input.h"
 
+#include "base/memory.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
@@ -38,10 +40,29 @@ ssize_t input_bytes(int file, void *bytes, size_t size)
     return (ssize_t)have;
 }
 
+/* As openat, but of a folder nothing is opened through a link. */
+static int open_below(int folder, const char *path, int flags)
+{
+    const char *slash = folder == AT_FDCWD ? NULL : strchr(path, '/');
+    if (!slash)
+        return openat(folder, path, flags);
+    char *name = memory_copy(path, (size_t)(slash - path));
+    const int inner = openat(folder, name, O_PATH | O_NOFOLLOW | O_CLOEXEC);
+    struct stat status;
+    const bool link = inner >= 0 && fstat(inner, &status) == 0 && S_ISLNK(status.st_mode);
+    const int file = inner < 0 || link ? -1 : open_below(inner, slash + 1, flags);
+    const int error = link ? ELOOP : errno;
+    free(name);
+    if (inner >= 0)
+        close(inner);
+    errno = error;
+    return file;
+}
+
 char *input_read(int folder, const char *path, const char *name, size_t max, size_t *size,
                  Message *message)
 {
-    const int file = openat(folder, path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    const int file = open_below(folder, path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (file < 0) {
         message_set(message, "%s: %s%s", name,
                     errno == ELOOP   ? "is a link"

@@ -368,9 +368,8 @@ void output_abort(Output *output)
 bool output_write(const char *path, const void *bytes, size_t size, Message *message)
 {
     if (strcmp(path, "-") == 0) {
-        if (output_append(STDOUT_FILENO, bytes, size))
-            return true;
-        return output_failed("standard output", errno, message);
+        return output_append(STDOUT_FILENO, bytes, size) ||
+               output_failed("standard output", errno, message);
     }
     Target target;
     if (!find_target(path, &target, message))

@@ -50,7 +50,7 @@ static void leave_out(const Search *search, const Exact *exact, const Scene *sce
                       LeftOut left_out[LEFT_OUT_COUNT])
 {
     const Image *image = &search->image;
-    for (int y = 0; y < drawn->height; y++) {
+    for (int y = 0; y < drawn->height; y++)
         for (int x = 0; x < drawn->width; x++) {
             size_t i, pixel;
             const double error = error_at(search, exact, x, y, &i, &pixel);
@@ -63,14 +63,13 @@ static void leave_out(const Search *search, const Exact *exact, const Scene *sce
             where->pixels++;
             where->largest = fmax(where->largest, error);
         }
-    }
 }
 
 /* Adds the errors of one moment's drawn picture to those of its objects. */
 static void compare(Search *search, const Exact *exact, const Scene *scene, Drawn *drawn,
                     double *largest)
 {
-    for (int y = 0; y < drawn->height; y++) {
+    for (int y = 0; y < drawn->height; y++)
         for (int x = 0; x < drawn->width; x++) {
             size_t i, pixel;
             const double error = error_at(search, exact, x, y, &i, &pixel);
@@ -86,7 +85,6 @@ static void compare(Search *search, const Exact *exact, const Scene *scene, Draw
             search->found[owner].error = fmax(search->found[owner].error, error);
             *largest = fmax(*largest, error);
         }
-    }
 }
 
 static bool draw_parts(const CheapestQualityTask *task, const Scene *scene,

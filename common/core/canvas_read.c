@@ -33,14 +33,13 @@ static void add_row(const Image *large, size_t y, size_t side, double *sums)
     const size_t first = y * (size_t)large->width * channels;
     const unsigned char *bytes = (const unsigned char *)large->pixels + first;
     const float *floats = (const float *)large->pixels + first;
-    for (size_t x = 0; x < width; x++) {
+    for (size_t x = 0; x < width; x++)
         for (size_t i = 0; i < side; i++) {
             const size_t from = (x * side + i) * channels;
             for (size_t c = 0; c < channels; c++)
                 sums[x * channels + c] +=
                     large->type == IMAGE_FLOAT ? (double)floats[from + c] : bytes[from + c];
         }
-    }
 }
 
 /* Each pixel of `image` is the mean of `side` x `side` of `large`. */

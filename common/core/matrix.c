@@ -352,7 +352,7 @@ static bool inverse_general(Mat4 a, Mat4 *inverse)
         s.b[i][4 + i] = 1;
     if (eliminate(s.b, 8) == 0)
         return false;
-    for (int i = 3; i >= 0; i--) {
+    for (int i = 3; i >= 0; i--)
         for (int k = 0; k < 4; k++) {
             double x = s.b[i][4 + k];
             for (int j = i + 1; j < 4; j++)
@@ -360,7 +360,6 @@ static bool inverse_general(Mat4 a, Mat4 *inverse)
             s.b[i][4 + k] = x / s.b[i][i];
             inverse->m[4 * i + k] = ldexp(s.b[i][4 + k], -(s.row[k] + s.column[i]));
         }
-    }
     return true;
 }
 

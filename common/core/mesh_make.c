@@ -117,17 +117,15 @@ bool mesh_weld(const Mesh *mesh, bool normals, uint32_t *first)
 
 bool mesh_check_length(const char *shape, const char *what, double length, Message *message)
 {
-    if ((float)length > 0 && !isinf((float)length))
-        return true;
-    return message_set(message, "%s: %s %g: must be more than 0 and finite", shape, what, length);
+    return ((float)length > 0 && !isinf((float)length)) ||
+           message_set(message, "%s: %s %g: must be more than 0 and finite", shape, what, length);
 }
 
 bool mesh_check_count(const char *shape, const char *what, int count, int min, int max,
                       Message *message)
 {
-    if (count >= min && count <= max)
-        return true;
-    return message_set(message, "%s: %d %s: must be %d to %d", shape, count, what, min, max);
+    return (count >= min && count <= max) ||
+           message_set(message, "%s: %d %s: must be %d to %d", shape, count, what, min, max);
 }
 
 size_t mesh_grid_size(int rows, int columns, MeshPoles poles)
@@ -141,7 +139,7 @@ size_t mesh_grid_size(int rows, int columns, MeshPoles poles)
 uint32_t *mesh_grid(uint32_t *indices, uint32_t first, int rows, int columns, MeshPoles poles)
 {
     const uint32_t row = (uint32_t)columns + 1;
-    for (uint32_t j = 0; j < (uint32_t)rows; j++) {
+    for (uint32_t j = 0; j < (uint32_t)rows; j++)
         for (uint32_t i = 0; i < (uint32_t)columns; i++) {
             const uint32_t p1 = first + j * row + i, p2 = p1 + row;
             if (!(poles & MESH_POLE_FIRST) || j > 0) {
@@ -155,7 +153,6 @@ uint32_t *mesh_grid(uint32_t *indices, uint32_t first, int rows, int columns, Me
                 *indices++ = p2 + 1;
             }
         }
-    }
     return indices;
 }
 

@@ -28,7 +28,8 @@ static void print_source(const ShaderLoader *loader, const ShaderSource *source,
     fputs(source->text, loader->printed);
 }
 
-bool shader_line_directive(const char *text, int *file, int *line)
+/* Whether a line of a source is a #line directive, and the file and line it gives the next. */
+static bool read_line_directive(const char *text, int *file, int *line)
 {
     char *end;
     if (strncmp(text, "#line ", 6) != 0)
@@ -38,14 +39,13 @@ bool shader_line_directive(const char *text, int *file, int *line)
     return true;
 }
 
-/* By following our own #line directives. */
 const char *shader_find_line(const char *text, int file, int line, int *length)
 {
     int at_file = -1, at_line = 0;
     for (const char *p = text; p && *p;) {
         const char *newline = strchr(p, '\n');
         const int n = newline ? (int)(newline - p) : (int)strlen(p);
-        if (!shader_line_directive(p, &at_file, &at_line)) {
+        if (!read_line_directive(p, &at_file, &at_line)) {
             if (at_file == file && at_line == line) {
                 *length = n;
                 return p;
@@ -192,7 +192,7 @@ static bool find_declaration(const ShaderSource *source, const char *word, int w
     for (const char *p = source->text; p && *p;) {
         const char *newline = strchr(p, '\n');
         const int length = newline ? (int)(newline - p) : (int)strlen(p);
-        const bool numbered = shader_line_directive(p, &file, &line);
+        const bool numbered = read_line_directive(p, &file, &line);
         if (!numbered && declares(p, length, word, word_length)) {
             *found = (Declaration){source->files[file], p, line, length};
             return true;
@@ -359,6 +359,8 @@ bool shader_open(Shader *shader, const ShaderLoader *loader, const char *name, M
                 1e3 * (clock_now() - start));
     if (!loader->warning)
         close_sources(shader);
+    else
+        shader_warn_of_color(&shader->sources[SHADER_FRAGMENT], loader->warning);
     return true;
 }
 

@@ -458,3 +458,15 @@ void shader_source_close(ShaderSource *source)
     free(source->text);
     *source = (ShaderSource){0};
 }
+
+void shader_warn_of_color(const ShaderSource *fragment, Message *warning)
+{
+    char *text = memory_text(fragment->text);
+    text_strip_comments(text);
+    if (!strstr(text, "gl_FragColor") && !strstr(text, "gl_FragData")) {
+        message_add(warning, "%s: warning: gl_FragColor is never written: any colour may be drawn",
+                    fragment->files[0]);
+        warning->located = true;
+    }
+    free(text);
+}

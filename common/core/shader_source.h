@@ -71,17 +71,14 @@ void shader_source_close(ShaderSource *source);
 bool shader_explain_log(const ShaderSource *source, const char *log, Message *message);
 /* The same of a program that does not link; cuts white space off the log's end. */
 bool shader_explain_link(const ShaderSource sources[2], char *log, Message *message);
+/* Adds to a warning that no line of a fragment's shader has gl_FragColor or gl_FragData. */
+void shader_warn_of_color(const ShaderSource *fragment, Message *warning);
 
 /* "#line 1000003 1" is line 3 of file 1: Mesa reports the source string of syntax errors only. */
 enum { SHADER_LINES_OF_FILE = 1000000 };
 
-/* Whether a line of a source is a #line directive, and the file and line it gives the next. */
-bool shader_line_directive(const char *text, int *file, int *line);
-
 /* A line of a file in a text that the driver gets; NULL: it is not there. */
 const char *shader_find_line(const char *text, int file, int line, int *length);
-
-/* What the front end of the shaders' language says of what a driver refuses. */
 
 enum { SHADER_LINKING = 2 };
 
@@ -90,10 +87,10 @@ enum { SHADER_LINKING = 2 };
  * SHADER_LINKING. Adds nothing if the front end finds nothing wrong. */
 void shader_advise(const ShaderSource sources[2], int refused, Message *message);
 
-/* False, with a message, for a text that no driver gets: its macros grow, or functions that call
- * each other, beyond what compilers end with; in a page, loops that would hang it. With `turns_max`
- * above 0 loops have to be as appendix A wants them, and to turn no more often for one vertex or
- * pixel. What does not parse is left to the driver. */
+/* False, with a message, for a text that no driver gets: its macros grow, its arrays, or functions
+ * that call each other, beyond what compilers end with; in a page, loops that would hang it. With
+ * `turns_max` above 0 loops have to be as appendix A wants them, and to turn no more often for one
+ * vertex or pixel. What does not parse is left to the driver. */
 bool shader_bounded(const ShaderSource *source, ShaderStage stage, double turns_max,
                     Message *message);
 

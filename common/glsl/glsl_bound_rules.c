@@ -147,6 +147,10 @@ static GlslRange function(int op, GlslRange a, GlslRange b)
 
 GlslRange range_of(int op, GlslRange a, GlslRange b, bool same)
 {
+    if (is_any(a) || (is_any(b) && (op == OP_MIN || op == OP_MAX)))
+        return op >= OP_NOT && op <= OP_XOR ? (GlslRange){0, 1}
+               : op == OP_SIGN              ? (GlslRange){-1, 1}
+                                            : ANY;
     /* clang-format off */
     switch (op) {
     case OP_ADD: return range_sum(a, b);

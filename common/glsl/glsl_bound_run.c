@@ -28,7 +28,7 @@ static int run_from(GlslBoundRun *run, int at, int stop);
 static void narrow_range(GlslRange *a, GlslRange to)
 {
     const GlslRange narrow = {larger(a->low, to.low), smaller(a->high, to.high)};
-    if (narrow.low <= narrow.high) /* else this way is not taken */
+    if (narrow.low <= narrow.high && !is_any(*a)) /* else this way is not taken */
         *a = narrow;
 }
 

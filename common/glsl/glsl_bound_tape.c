@@ -236,6 +236,8 @@ static void compare(GlslBoundRun *run, Entry *entry)
     const bool whole = entry->op == OP_EQUAL || entry->op == OP_NOT_EQUAL;
     entry->by[0] = entry->by[1] = NONE;
     entry->born = 0;
+    if (!isfinite(error)) /* the driver's may be no number, which is neither less nor more */
+        entry->driver = (GlslRange){entry->op == OP_SIGN ? -1 : 0, 1};
     tape_slope(entry, is_point(entry->exact) ? NONE : ANY);
     if (error == 0 || (!whole && (apart.low > error || apart.high < -error)))
         entry->driver = entry->exact;
@@ -296,6 +298,9 @@ int tape_compute(GlslBoundRun *run, const GlslInstruction *at, int a, int b)
     }
     entry.exact = range_of(at->op, x->exact, y->exact, same);
     entry.driver = range_of(at->op, x->driver, y->driver, same);
+    if (at->op == OP_ADD && at->n && isfinite(magnitude(entry.exact)) &&
+        isfinite(magnitude(entry.driver)))
+        tape_narrow_dot(run, at->n, a, b, &entry.exact);
     entry.middle = middle_of(at, x->middle, y->middle);
     if ((at->op >= OP_NOT && at->op <= OP_XOR) || at->op == OP_BOOL || at->op == OP_SIGN) {
         if (at->op == OP_LESS || at->op == OP_LESS_EQUAL || at->op == OP_EQUAL ||
@@ -316,7 +321,8 @@ int tape_compute(GlslBoundRun *run, const GlslInstruction *at, int a, int b)
         entry.born = rounding_of(run->errors, at, x->driver, y->driver, entry.driver);
         entry.driver.low -= isfinite(entry.born) ? entry.born : least_rounding(run, at, x, y);
         entry.driver.high += entry.born;
-        if (at->op == OP_SQRT || at->op == OP_POW || (same && at->op == OP_MULTIPLY))
+        if (!is_any(entry.driver) &&
+            (at->op == OP_SQRT || at->op == OP_POW || (same && at->op == OP_MULTIPLY)))
             entry.driver.low = larger(entry.driver.low, 0);
         complete(run, &entry);
     }
@@ -352,8 +358,9 @@ int tape_join(GlslBoundRun *run, const int of[2], const int near[2], int ways, i
                driver_b = ways & (BOTH_SECOND | FIRST_SECOND);
     made.exact = exact_a && exact_b ? hull(a.exact, b.exact) : exact_a ? a.exact : b.exact;
     made.driver = driver_a && driver_b ? hull(a.driver, b.driver) : driver_a ? a.driver : b.driver;
-    made.by[0] = (GlslRange){ways & BOTH_FIRST && !(ways & BOTH_SECOND), !!(ways & BOTH_FIRST)};
-    made.by[1] = (GlslRange){ways & BOTH_SECOND && !(ways & BOTH_FIRST), !!(ways & BOTH_SECOND)};
+    ways &= ~EDGE;
+    made.by[0] = (GlslRange){ways == BOTH_FIRST, !!(ways & BOTH_FIRST)};
+    made.by[1] = (GlslRange){ways == BOTH_SECOND, !!(ways & BOTH_SECOND)};
     made.error = larger(made.born,
                         larger(ways & BOTH_FIRST ? a.error : 0, ways & BOTH_SECOND ? b.error : 0));
     const bool alone = !(exact_a && exact_b);

@@ -27,6 +27,11 @@ static inline GlslRange hull(GlslRange a, GlslRange b)
 {
     return (GlslRange){smaller(a.low, b.low), larger(a.high, b.high)};
 }
+/* ANY, which may be no number, too: what is made of it may, as well. */
+static inline bool is_any(GlslRange a)
+{
+    return a.low == ANY.low && a.high == ANY.high;
+}
 static inline bool is_point(GlslRange a)
 {
     return a.low == a.high;
@@ -107,6 +112,9 @@ int tape_compute(GlslBoundRun *run, const GlslInstruction *at, int a, int b);
  * ones, the condition changes within each pixel. */
 enum { BOTH_FIRST = 1, BOTH_SECOND = 2, FIRST_SECOND = 4, SECOND_FIRST = 8, EDGE = 16 };
 int ways_of(const Entry *condition);
+
+/* The exact range of a dot product of so many terms, from its last sum's operands. */
+void tape_narrow_dot(const GlslBoundRun *run, int count, int sum, int term, GlslRange *exact);
 
 /* One of two numbers; `near`: the same where the two may go different ways. */
 int tape_join(GlslBoundRun *run, const int of[2], const int near[2], int ways, int node);

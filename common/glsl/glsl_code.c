@@ -155,6 +155,31 @@ static void compile_variable(Compiler *compiler, int node)
     compiler->unset[at->symbol] = !valued;
 }
 
+/* Numbers that round. */
+static bool is_computed(const GlslNode *at)
+{
+    const int kind = at->kind;
+    return glsl_scalar(at->type) == GLSL_FLOAT && !at->constant && kind != GLSL_NAME &&
+           (kind < GLSL_INDEX || kind > GLSL_SWIZZLE);
+}
+
+static bool rounds(const GlslTree *tree, int node)
+{
+    bool found = is_computed(&tree->nodes[node]);
+    for (int i = tree->nodes[node].first; i && !found; i = tree->nodes[i].next)
+        found = rounds(tree, i);
+    return found;
+}
+
+/* What a condition or a return computes is an event without a symbol. */
+static Value compile_computed(Compiler *compiler, int node)
+{
+    const Value value = compile_read(compiler, node);
+    if (rounds(compiler->tree, node))
+        compile_event(compiler, node, 0, value);
+    return value;
+}
+
 static int compile_condition(Compiler *compiler, int node)
 {
     const GlslNode *at = &compiler->tree->nodes[node];
@@ -167,7 +192,7 @@ static int compile_condition(Compiler *compiler, int node)
             variable = compiler->tree->nodes[variable].next;
         return compiler->where[compiler->tree->nodes[variable].symbol];
     }
-    return register_of(compiler, compile_read(compiler, node), 0);
+    return register_of(compiler, compile_computed(compiler, node), 0);
 }
 
 static void compile_loop(Compiler *compiler, int node)
@@ -220,7 +245,7 @@ static void compile_return(Compiler *compiler, int node)
 {
     const int first = compiler->tree->nodes[node].first;
     if (first && compiler->tree->nodes[first].kind != GLSL_NOTHING) {
-        const Value value = compile_read(compiler, first);
+        const Value value = compile_computed(compiler, first);
         for (int i = 0; i < value.count; i++)
             emit(compiler, OP_SET, compiler->result + i, register_of(compiler, value, i), 0);
     }
@@ -280,6 +305,19 @@ static void pass_out(Compiler *compiler, const GlslSymbol *parameter, Value valu
     }
 }
 
+/* Its arguments are assignments only if others follow in it, which else would be taken for where
+ * they are rounded. */
+static void forget_arguments(Compiler *compiler, int first, int end)
+{
+    GlslCode *code = compiler->code;
+    bool follow = false;
+    for (int i = end; i < code->instruction_count; i++)
+        follow |= glsl_event_symbol(code, i) != 0;
+    for (int i = first; i < end && !follow; i++)
+        if (code->instructions[i].op == OP_EVENT)
+            code->instructions[i].c = 0;
+}
+
 Value compile_call(Compiler *compiler, int node)
 {
     enum { PARAMETERS = 64 };
@@ -304,16 +342,22 @@ Value compile_call(Compiler *compiler, int node)
                                ? compile_expression(compiler, i)
                                : compile_read(compiler, i),
         count++;
-    for (int i = 0; i < count && !compiler->code->message.text[0]; i++) {
+    const int passing = here(compiler);
+    for (int i = 0, at = tree->nodes[node].first; i < count && !compiler->code->message.text[0];
+         i++, at = tree->nodes[at].next) {
         const int to = reserve(compiler, arguments[i].count);
         pass_in(compiler, function->parameter + i, arguments[i], to);
+        if (is_computed(&tree->nodes[at]))
+            compile_event(compiler, at, function->parameter + i, value_at(to, arguments[i].count));
         old[i] = to;
     }
+    const int passed = here(compiler);
     compiler->returns = compiler->breaks = compiler->continues = (Waiting){0};
     compiler->result = result.base;
     for (int i = 0; i < count; i++)
         compiler->where[function->parameter + i] = old[i];
     compile_statement(compiler, block);
+    forget_arguments(compiler, passing, passed);
     arrive_all(compiler, &compiler->returns, returns);
     compiler->breaks = breaks;
     compiler->continues = continues;

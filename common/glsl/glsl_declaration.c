@@ -49,8 +49,8 @@ Sentence reserved(Parser *parser, int word)
 {
     Sentence sentence;
     const char *name = keep_name(parser, word), *instead = replacement_for(parser, name);
-    snprintf(sentence.text, sizeof sentence.text, "%.40s belongs to C or a later GLSL%s%s", name,
-             instead ? ": " : "", instead ? instead : "");
+    snprintf(sentence.text, sizeof sentence.text, "%.40s has no meaning here in GLSL ES 1.00%s%s",
+             name, instead ? "; " : "", instead ? instead : "");
     return sentence;
 }
 

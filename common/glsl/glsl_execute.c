@@ -389,9 +389,11 @@ static bool go_on(GlslRun *run, Spot *spot, const GlslArithmetic *arithmetic, in
         if (at->op < OP_NUMBERS) {
             run->registers[at->d] = operate(run, at, arithmetic);
         } else if (at->op == OP_EVENT) {
+            if (!at->c && !run->details)
+                continue;
             if (run->trace)
                 add_event(run, at);
-            if (run->assigned)
+            if (run->assigned && at->c)
                 run->assigned(run, &(GlslEvent){at->node, at->c, at->a, at->n, -1}, run->observer);
             if (spot->events++ == event)
                 return true;
@@ -462,6 +464,14 @@ int glsl_event_symbol(const GlslCode *code, int instruction)
 {
     const GlslInstruction *at = &code->instructions[instruction];
     return at->op == OP_EVENT ? at->c : 0;
+}
+
+bool glsl_noted(const GlslRun *run, int kind)
+{
+    bool noted = false;
+    for (int i = 0; i < run->note_count && !noted; i++)
+        noted = run->notes[i].kind == kind;
+    return noted;
 }
 
 const GlslEvent *glsl_last(const GlslRun *run, const char *name)

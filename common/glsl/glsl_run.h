@@ -94,8 +94,9 @@ enum { GLSL_NOTES = 16 };
 /* "pow of a negative number, or of 0 to the power of 0 or less". */
 const char *glsl_note_text(int kind);
 
-/* An assignment, or a declaration with a value, that was executed; what it assigned is in
- * `values`. */
+/* An assignment, a declaration with a value, or what is computed for a parameter of a function that
+ * has such, that was executed; what it assigned is in `values`. With `details`, also what a
+ * condition or a return computes; its symbol is 0. */
 typedef struct GlslEvent {
     int node, symbol, first, count;
     int value; /* the first in `values` */
@@ -113,8 +114,8 @@ typedef struct GlslRun {
     int loops;            /* iterations in one run; 100,000 at first */
     GlslTexture *texture; /* NULL: opaque black */
     void *context;
-    bool trace;
-    /* After each event; may change the numbers that were assigned. NULL: none. */
+    bool trace, details;
+    /* After each assignment; may change the numbers that were assigned. NULL: none. */
     void (*assigned)(struct GlslRun *run, const GlslEvent *event, void *observer);
     void *observer;
     /* Set inputs here before a run, and read results after it. Registers of local variables and
@@ -142,6 +143,9 @@ bool glsl_run(GlslRun *run);
  * before, and not in the registers. */
 typedef void GlslEach(GlslRun *run, int event, bool same, void *context);
 void glsl_run_each(GlslRun *run, int first, int last, int step, GlslEach *each, void *context);
+
+/* Whether a run did what a note of this kind is of. */
+bool glsl_noted(const GlslRun *run, int kind);
 
 /* The last of the events of a variable so named, NULL: it has none. */
 const GlslEvent *glsl_last(const GlslRun *run, const char *name);

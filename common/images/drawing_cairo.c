@@ -81,7 +81,7 @@ static void take_pixels(Image *image, cairo_surface_t *surface)
     const unsigned char *rows = cairo_image_surface_get_data(surface);
     const int stride = cairo_image_surface_get_stride(surface);
     unsigned char *to = image->pixels;
-    for (int y = 0; y < image->height; y++, rows += stride) {
+    for (int y = 0; y < image->height; y++, rows += stride)
         for (int x = 0; x < image->width; x++, to += 4) {
             uint32_t word;
             memcpy(&word, rows + 4 * x, 4);
@@ -92,7 +92,6 @@ static void take_pixels(Image *image, cairo_surface_t *surface)
             }
             to[3] = (unsigned char)alpha;
         }
-    }
 }
 
 static const char *paint(const Drawing *drawing, Image *image, bool transparent)

@@ -69,7 +69,7 @@ static void draw_coverage(Image *image, const unsigned char color[3], const Cove
                           int right, int down)
 {
     const unsigned char *coverage = glyph->bytes;
-    for (int row = 0; row < glyph->height; row++) {
+    for (int row = 0; row < glyph->height; row++)
         for (int column = 0; column < glyph->width; column++, coverage++) {
             const int x = glyph->left + right + column, y = glyph->top + down + row;
             if (*coverage && x >= 0 && y >= 0 && x < image->width && y < image->height)
@@ -77,7 +77,6 @@ static void draw_coverage(Image *image, const unsigned char color[3], const Cove
                           4 * (size_t)x,
                       color, *coverage);
         }
-    }
 }
 
 /* Where glyphs are drawn. */

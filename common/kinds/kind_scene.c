@@ -238,9 +238,13 @@ static bool save(const Example *example, const DrawRequest *request, const char 
     const ViewMoment moment = {&renderer, request, request->seconds, 0};
     SceneCopy kept = {.lights = NULL};
     Scene scene;
+    int columns, rows;
+    const int views = scene_view_grid(example_scene(example), &columns, &rows);
     const bool done = example->init(&none, message) &&
                       scene_view_make(&moment, &kept, &scene, message) &&
                       scene_save(&scene, path, message);
+    if (done && views > 1)
+        message_set(message, "%s has the first of the %d views", path, views);
     scene_copy_close(&kept);
     example->finish();
     return done;

@@ -141,7 +141,7 @@ static int explain_shadows(const Scene *scene, const Placed *placed, FILE *file)
         for (size_t k = 0; k < placed[i].object->mesh->vertex_count; k++)
             largest = fmax(largest, vec3_length(real3_round(placed[i].vertices[k])));
     const double size = 4 * largest;
-    for (int o = 0; o < scene->object_count; o++) {
+    for (int o = 0; o < scene->object_count; o++)
         for (int r = 0; r < scene->object_count; r++) {
             int lights[SAMPLES];
             const Object *receiver = &scene->objects[r];
@@ -159,7 +159,6 @@ static int explain_shadows(const Scene *scene, const Placed *placed, FILE *file)
             fprintf(file, ")\n");
             lines++;
         }
-    }
     return lines;
 }
 

@@ -432,7 +432,6 @@ LightingCounts lighting_counts(const Lighting *lighting)
                             .texts = lighting->programs.printed,
                             .volumes = lighting->volumes.drawn,
                             .volumes_made = lighting->volumes.made,
-                            .volume_triangles = lighting->volumes.triangles,
                             .maps = lighting->maps.drawn};
 }
 

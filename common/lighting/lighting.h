@@ -20,10 +20,10 @@ typedef struct Lighting Lighting;
 typedef struct LightingCounts {
     int programs; /* compiled so far */
     double compile_seconds;
-    long long texts;                     /* of programs written, to find those to compile */
-    long long volumes, volume_triangles; /* of shadows, drawn so far */
-    long long volumes_made;              /* of those: others were as in the last frame */
-    long long maps;                      /* the faces of a cube are several maps */
+    long long texts;        /* of programs written, to find those to compile */
+    long long volumes;      /* of shadows, drawn so far */
+    long long volumes_made; /* of those: others were as in the last frame */
+    long long maps;         /* the faces of a cube are several maps */
 } LightingCounts;
 
 /* `loader` is copied; its strings must outlive the Lighting. */

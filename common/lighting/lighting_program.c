@@ -179,11 +179,10 @@ void lighting_close_programs(LightingPrograms *programs)
         free(compiled->program.maps);
         free(compiled);
     }
-    for (int i = 0; i < LIGHTING_SLOTS; i++) {
+    for (int i = 0; i < LIGHTING_SLOTS; i++)
         while (programs->variants[i]) {
             LightingVariant *variant = programs->variants[i];
             programs->variants[i] = variant->next;
             free(variant);
         }
-    }
 }

@@ -94,6 +94,8 @@ static int list_events(Shares *shares, const GlslRun *run, const char *source, i
                        .symbol = event->symbol,
                        .tree = run->code->tree,
                        .source = source};
+        if (!event->symbol)
+            continue;
         for (int k = 0; k < i; k++)
             share.turn += run->events[k].node == share.node;
         if (stage == 1 || share.turn == 0)

@@ -20,6 +20,12 @@ double origin_apart(const double a[4], const double b[4])
     return most;
 }
 
+bool origin_undefined(const Raster *raster, const GlslRun *run, const double color[4])
+{
+    return run->stopped || raster_unset(raster) || glsl_noted(run, GLSL_NOTE_UNSET) ||
+           isnan(color[0]) || isnan(color[1]) || isnan(color[2]);
+}
+
 /* The largest jump so far: at an event, after which error; the part it ends. */
 typedef struct Search {
     const double *exact;

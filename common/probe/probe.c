@@ -61,10 +61,16 @@ bool probe_exact(const ProbeQuestion *question, double color[4], int *draw)
     if (raster_open(&raster, question->capture, question->driver, NULL))
         raster_find(raster, question->column, question->height - 1 - question->row, &pixel);
     const GlslRun *run = pixel.draw < 0 ? NULL : run_at_pixel(raster, &pixel, color);
-    const bool known = run && !run->stopped && !run->discarded;
+    const bool known = run && !run->discarded && !origin_undefined(raster, run, color);
     raster_close(raster);
     *draw = pixel.draw;
     return known;
+}
+
+static void drawn_color(const Probe *probe, double drawn[4])
+{
+    for (int i = 0; i < 4; i++)
+        drawn[i] = (double)probe->question.drawn[i] / 255;
 }
 
 static void judge(Probe *probe)
@@ -76,12 +82,17 @@ static void judge(Probe *probe)
         picture[i] = (double)exact->color[i];
     if (!exact)
         run_at_pixel(probe->raster, &probe->pixel, picture);
+    double drawn[4];
+    drawn_color(probe, drawn);
+    probe->as_drawn = origin_apart(drawn, picture);
+    probe->birth = probe->magnifier = -1;
+    if (probe->undefined)
+        return;
     probe->whole = origin_apart(probe->driver.color, picture);
     probe->formula = origin_apart(probe->exact.color, picture);
     probe->rounding = origin_apart(probe->driver.color, probe->exact.color);
     probe->birth =
         origin_find(probe->raster, &probe->pixel, probe->driver.count, probe->exact.color);
-    probe->magnifier = -1;
     if (probe->birth >= 0)
         find_magnifier(probe);
 }
@@ -105,8 +116,12 @@ static void put_notes(FILE *file, const char *source, const GlslRun *run, int co
 {
     for (int i = 0; i < count; i++) {
         char place[PLACE_TEXT];
-        place_name(source, run->code->tree->nodes[run->notes[i].node].place, place);
-        fprintf(file, "%s: %s\n", place, glsl_note_text(run->notes[i].kind));
+        const GlslNote *note = &run->notes[i];
+        char text[PLACE_TEXT] = "";
+        place_name(source, run->code->tree->nodes[note->node].place, place);
+        if (note->kind == GLSL_NOTE_UNSET)
+            glsl_expression_text(run->code->tree, note->node, text, sizeof text);
+        fprintf(file, "%s%s%s: %s\n", place, text[0] ? ", " : "", text, glsl_note_text(note->kind));
     }
 }
 
@@ -115,14 +130,11 @@ static bool put_remarks(FILE *file, const Probe *probe, const GlslRun *run)
 {
     const CaptureDraw *draw = &probe->question.capture->draws[probe->pixel.draw];
     const bool discarded = run->discarded;
-    double drawn[4];
-    for (int i = 0; i < 4; i++)
-        drawn[i] = (double)probe->question.drawn[i] / 255;
     if (run->stopped)
         fprintf(file, "a loop does not end\n");
     if (discarded)
         fprintf(file, "the fragment is discarded: the pixel shows what is behind it\n");
-    else if (origin_apart(drawn, probe->driver.color) > 0.51)
+    else if (probe->otherwise && !probe->undefined)
         fprintf(file, "the picture is not that: a line or point is drawn over it, an edge runs "
                       "through it, or the driver computes otherwise\n");
     put_notes(file, draw->sources[1], run, run->note_count);
@@ -149,12 +161,17 @@ bool probe_open(Probe *probe, const ProbeQuestion *question, Message *message)
                 &probe->pixel);
     bool judges = false;
     if (probe->pixel.draw >= 0) {
-        double color[4];
-        probe->exact = keep(raster_run(probe->raster, &probe->pixel, &GLSL_EXACT, INT_MAX, color));
+        double color[4], drawn[4];
+        const GlslRun *run = raster_run(probe->raster, &probe->pixel, &GLSL_EXACT, INT_MAX, color);
+        probe->exact = keep(run);
+        probe->undefined = origin_undefined(probe->raster, run, color);
         memcpy(probe->exact.color, color, sizeof color);
-        const GlslRun *run =
+        run =
             raster_run(probe->raster, &probe->pixel, raster_driver(probe->raster), INT_MAX, color);
         probe->driver = keep(run);
+        probe->undefined |= origin_undefined(probe->raster, run, color);
+        drawn_color(probe, drawn);
+        probe->otherwise = origin_apart(drawn, color) > 0.51;
         memcpy(probe->driver.color, color, sizeof color);
         judges = put_remarks(file, probe, run);
     } else {

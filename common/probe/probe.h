@@ -37,6 +37,9 @@ typedef struct Probe {
      * is the formula's, and what is rounding. Without an exact picture, against what the program's
      * own equation gives at the pixel: the formula's is then what interpolating changes. */
     bool judged;
+    bool undefined;  /* the colour, so that the driver may draw any */
+    bool otherwise;  /* another colour is drawn than is computed */
+    double as_drawn; /* how far that is off */
     double picture[4];
     double whole, formula, rounding;
     int birth;        /* the event in which the rounding is born; -1: before the first */

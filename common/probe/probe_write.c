@@ -6,6 +6,7 @@
 #include "base/output_text.h"
 #include "core/shader_source.h"
 #include "probe/origin.h"
+#include "probe/show.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -64,11 +65,34 @@ static void put_event(FILE *file, const Probe *probe, int event)
     fprintf(file, " in %s (%s)", place, text);
 }
 
+/* What it assigns to, or what a condition or a return computes. */
+static void event_name(const Probe *probe, int event, char *text, size_t size)
+{
+    const int symbol = probe->driver.events[event].symbol;
+    if (symbol)
+        snprintf(text, size, "%s", tree_of(probe)->symbols[symbol].name);
+    else
+        event_text(probe, event, text, size);
+}
+
+static bool is_rounded(const Probe *probe)
+{
+    return probe->rounding >= SHOW_LEAST;
+}
+
 static void put_verdict(FILE *file, const Probe *probe)
 {
+    if (probe->question.exact && (probe->undefined || probe->otherwise))
+        fprintf(file, "%.2f steps off as drawn; ", probe->as_drawn);
+    if (probe->undefined) {
+        fprintf(file, "the colour is undefined");
+        return;
+    }
+    if (probe->otherwise)
+        fprintf(file, "%sas computed, ", probe->question.exact ? "" : "not what is drawn; ");
     fprintf(file, "%.2f steps off: %.2f by %s, %.2f by rounding", probe->whole, probe->formula,
             probe->question.exact ? "the formula" : "interpolation", probe->rounding);
-    if (probe->rounding < 0.01)
+    if (!is_rounded(probe))
         return;
     fprintf(file, ", born");
     if (probe->birth < 0)
@@ -92,8 +116,9 @@ static void put_numbers(FILE *file, const double *values, int count)
 
 static void put_steps(FILE *file, const char *name, const double color[3])
 {
-    fprintf(file, "%s %.3f, %.3f, %.3f", name, origin_step(color[0]), origin_step(color[1]),
-            origin_step(color[2]));
+    for (int i = 0; i < 3; i++)
+        fprintf(file, isnan(color[i]) ? "%s no number" : "%s %.3f", i ? "," : name,
+                origin_step(color[i]));
 }
 
 /* What a variable, or an element of an array, holds before an event; returns how many numbers, 0:
@@ -184,7 +209,7 @@ static char *filled_text(const Probe *probe, int event)
 /* The lines of a text of several files are shown, for nobody has it at hand. */
 static void put_trail(FILE *file, const Probe *probe)
 {
-    char place[PLACE_TEXT], before[PLACE_TEXT] = "", line[PLACE_TEXT];
+    char place[PLACE_TEXT], before[PLACE_TEXT] = "", line[PLACE_TEXT], name[PLACE_TEXT];
     fprintf(file, "line, name: driver | exact | difference in steps of 1/255\n");
     for (int i = 0; i < probe->driver.count; i++) {
         const GlslEvent *event = &probe->driver.events[i], *exact = exact_event(probe, i);
@@ -195,8 +220,8 @@ static void put_trail(FILE *file, const Probe *probe)
         if (!single && strcmp(place, before) != 0)
             fprintf(file, "%s  %s\n", place, line);
         memcpy(before, place, sizeof before);
-        fprintf(file, "%4s  %s: ", single ? place + 5 : "",
-                tree_of(probe)->symbols[event->symbol].name);
+        event_name(probe, i, name, sizeof name);
+        fprintf(file, "%4s  %s: ", single ? place + 5 : "", name);
         put_numbers(file, probe->driver.values + event->value, event->count);
         if (exact) {
             fprintf(file, " | ");
@@ -277,7 +302,7 @@ char *probe_text(const Probe *probe)
         put_trail(file, probe);
     }
     put_end(file, probe);
-    if (probe->judged)
+    if (probe->judged && is_rounded(probe) && probe->birth >= 0)
         fprintf(file, "(the line from which on the error of the colour stays when all that "
                       "follows is computed exactly)\n");
     for (int c = 0; c < 3 && probe->pixel.draw >= 0; c++)
@@ -312,8 +337,10 @@ static void write_trail(JsonWriter *json, const Probe *probe)
     for (int i = 0; i < probe->driver.count; i++) {
         const GlslEvent *event = &probe->driver.events[i], *exact = exact_event(probe, i);
         json_write_object(json, NULL);
+        char name[PLACE_TEXT];
         write_place(json, probe, i);
-        json_write_text(json, "name", tree_of(probe)->symbols[event->symbol].name);
+        event_name(probe, i, name, sizeof name);
+        json_write_text(json, "name", name);
         char *filled = filled_text(probe, i);
         if (filled)
             json_write_text(json, "filled", filled);
@@ -337,6 +364,10 @@ static void write_verdict(JsonWriter *json, const Probe *probe)
     json_write_object(json, "verdict");
     json_write_text(json, "text", said);
     free(said);
+    if (probe->undefined) {
+        json_write_end(json);
+        return;
+    }
     json_write_number(json, "steps", probe->whole);
     write_numbers(json, "against", probe->picture, 3);
     json_write_number(json, probe->question.exact ? "formula" : "interpolation", probe->formula);
@@ -365,7 +396,7 @@ static void write_corner(JsonWriter *json, const Probe *probe, int corner)
     for (int i = 0; i < run->event_count; i++) {
         const GlslEvent *event = &run->events[i];
         const GlslSymbol *symbol = &run->code->tree->symbols[event->symbol];
-        if (!symbol->global && event == glsl_last(run, symbol->name) &&
+        if (event->symbol && !symbol->global && event == glsl_last(run, symbol->name) &&
             glsl_is_vector(symbol->type) && event->count == glsl_size(symbol->type))
             write_numbers(json, symbol->name, run->values + event->value, event->count);
     }

@@ -48,6 +48,12 @@ void raster_run_each(Raster *raster, const RasterPixel *pixel, const int events[
                      void *context);
 void raster_color(GlslRun *run, double color[4]);
 
+/* Whether a loop did not end for a pixel: from then on each run of its shader has few turns. */
+bool raster_stopped(const Raster *raster);
+
+/* Whether a vertex of the last pixel that was run read a variable that has no value. */
+bool raster_unset(const Raster *raster);
+
 /* Whatever the arithmetic, this varying is what the driver computes; NULL: none. */
 void raster_keep(Raster *raster, const char *varying);
 

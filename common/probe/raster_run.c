@@ -11,6 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { ENDLESS = 8 }; /* turns, once a loop did not end */
+
 /* The shaders of a draw */
 
 static const double *numbers(const GlslRun *run, const char *name, GlslVariable *found)
@@ -83,6 +85,7 @@ static GlslRun *begin(Raster *raster, int draw, int stage, const GlslArithmetic 
     GlslRun *run = program->runs[stage];
     run->arithmetic = arithmetic;
     run->exact_from = INT_MAX;
+    run->details = true;
     run->assigned = raster->assigned[stage];
     run->observer = raster->observer;
     run->texture = look_up;
@@ -254,16 +257,19 @@ static const double *hand_over(Raster *raster, int draw, unsigned vertex,
         free(state->handed[exact].known);
         free(state->handed[exact].numbers);
         state->handed[exact].arithmetic = arithmetic;
-        state->handed[exact].known = memory_new(room, sizeof(bool));
+        state->handed[exact].known = memory_new(room, 1);
         state->handed[exact].numbers = memory_new(room * each, sizeof(double));
     }
     double *numbers = state->handed[exact].numbers + each * vertex;
-    if (state->handed[exact].known[vertex])
+    signed char *known = &state->handed[exact].known[vertex];
+    raster->unset |= *known & UNSET;
+    if (*known)
         return numbers;
-    state->handed[exact].known[vertex] = true;
     GlslRun *run = begin(raster, draw, 0, arithmetic);
     run->trace = false;
     run_vertex(run, &raster->capture->draws[draw], vertex);
+    *known = glsl_noted(run, GLSL_NOTE_UNSET) ? HANDED | UNSET : HANDED;
+    raster->unset |= *known & UNSET;
     for (int i = 0; i < stages->link_count; i++)
         memcpy(numbers + stages->links[i].at, run->registers + stages->links[i].vertex,
                sizeof(double) * (size_t)stages->links[i].count);
@@ -299,6 +305,7 @@ static void compute(Raster *raster, const RasterPixel *pixel, GlslRun *fragment,
     GlslRun *run = begin(raster, pixel->draw, 0, arithmetic);
     run->trace = false;
     run_between(run, &raster->capture->draws[pixel->draw], pixel->corners, pixel->weights, 3);
+    raster->unset = glsl_noted(run, GLSL_NOTE_UNSET);
     for (int k = 0; k < stages->link_count; k++)
         memcpy(fragment->registers + stages->links[k].fragment,
                run->registers + stages->links[k].vertex,
@@ -337,6 +344,7 @@ static GlslRun *begin_pixel(Raster *raster, const RasterPixel *pixel,
 {
     GlslRun *run = begin(raster, pixel->draw, 1, arithmetic);
     const double front = pixel->front;
+    raster->unset = false;
     (raster->at_pixel ? compute : interpolate)(raster, pixel, run, arithmetic);
     set(run, "gl_FragCoord", pixel->coord, 4);
     set(run, "gl_FrontFacing", &front, 1);
@@ -349,8 +357,9 @@ void raster_color(GlslRun *run, double color[4])
     const double *written = numbers(run, "gl_FragColor", &found);
     if (!written || !run->code->tree->symbols[found.symbol].written)
         written = numbers(run, "gl_FragData[0]", &found);
+    const bool is_written = written && run->code->tree->symbols[found.symbol].written;
     for (int i = 0; i < 4; i++)
-        color[i] = written ? written[i] : 0;
+        color[i] = is_written ? written[i] : NAN;
 }
 
 const GlslRun *raster_run(Raster *raster, const RasterPixel *pixel,
@@ -359,9 +368,23 @@ const GlslRun *raster_run(Raster *raster, const RasterPixel *pixel,
     GlslRun *run = begin_pixel(raster, pixel, arithmetic);
     run->exact_from = exact_from;
     run->trace = raster->logs || exact_from == INT_MAX;
-    glsl_run(run);
+    if (!glsl_run(run) && run->loops > ENDLESS) {
+        run->loops = ENDLESS;
+        raster->stopped = true;
+        glsl_run(run);
+    }
     raster_color(run, color);
     return run;
+}
+
+bool raster_unset(const Raster *raster)
+{
+    return raster->unset;
+}
+
+bool raster_stopped(const Raster *raster)
+{
+    return raster->stopped;
 }
 
 void raster_run_each(Raster *raster, const RasterPixel *pixel, const int events[3], GlslEach *each,

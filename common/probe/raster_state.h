@@ -14,6 +14,8 @@ typedef struct RasterProgram {
     int set_for[2]; /* the draw whose uniforms the runs hold, plus 1 */
 } RasterProgram;
 
+enum { HANDED = 1, UNSET = 2 };
+
 /* Of the vertices, by number. */
 typedef struct DrawState {
     int program;
@@ -21,9 +23,9 @@ typedef struct DrawState {
     double (*places)[4]; /* clip coordinates, as the driver computes them */
     struct {
         const GlslArithmetic *arithmetic;
-        bool *known;
-        double *numbers; /* of the links */
-    } handed[2];         /* as the driver computes, and exactly; filled as they are needed */
+        signed char *known; /* HANDED, and UNSET: of a variable that has no value */
+        double *numbers;    /* of the links */
+    } handed[2];            /* as the driver computes, and exactly; filled as they are needed */
 } DrawState;
 
 struct Raster {
@@ -34,6 +36,8 @@ struct Raster {
     DrawState *draws;
     const Raster *first; /* which owns what is constant; NULL: this one */
     bool logs, at_pixel; /* see raster_at_pixel */
+    bool stopped;        /* see raster_stopped */
+    bool unset;          /* see raster_unset */
     const char *kept;    /* see raster_keep */
     /* See raster_observe, by stage. */
     void (*assigned[2])(GlslRun *run, const GlslEvent *event, void *observer);

@@ -12,6 +12,7 @@
 #include "probe/origin.h"
 
 #include <limits.h>
+#include <math.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -84,7 +85,8 @@ static bool has_name(const GlslCode *code, const char *name)
 typedef struct Job {
     Show *show;
     const Raster *raster;
-    atomic_int next; /* band */
+    atomic_int next;     /* band */
+    atomic_bool stopped; /* as Show.stopped */
     char name[CAPTURE_NAME];
     int component;       /* of it; -1: all */
     signed char *stages; /* of each draw, which has the name; -1: none */
@@ -201,6 +203,13 @@ static bool is_varying(const GlslCode *code, const char *name)
     return glsl_find(code, name, &found) && found.storage == GLSL_VARYING;
 }
 
+static int no_number(double value[4])
+{
+    for (int i = 0; i < 3; i++)
+        value[i] = NAN;
+    return 3;
+}
+
 static int find_error(const Job *job, Raster *raster, const RasterPixel *pixel, double value[4])
 {
     double exact[4], color[4];
@@ -208,6 +217,8 @@ static int find_error(const Job *job, Raster *raster, const RasterPixel *pixel, 
     const GlslRun *run = raster_run(raster, pixel, raster_driver(raster), INT_MAX, color);
     if (run->discarded || job->stages[pixel->draw] != 1)
         return 0;
+    if (origin_undefined(raster, run, color))
+        return no_number(value);
     if (job->name[0] && !is_varying(run->code, job->name)) {
         add_events(job, raster, pixel, run, value);
         return 3;
@@ -217,7 +228,8 @@ static int find_error(const Job *job, Raster *raster, const RasterPixel *pixel, 
         raster_run(raster, pixel, &GLSL_EXACT, INT_MAX, color);
         raster_keep(raster, NULL);
     }
-    raster_run(raster, pixel, &GLSL_EXACT, INT_MAX, exact);
+    if (origin_undefined(raster, raster_run(raster, pixel, &GLSL_EXACT, INT_MAX, exact), exact))
+        return no_number(value);
     add_apart(value, color, exact);
     return 3;
 }
@@ -225,14 +237,16 @@ static int find_error(const Job *job, Raster *raster, const RasterPixel *pixel, 
 static void find_blame(Raster *raster, const RasterPixel *pixel, ShowPixel *shown)
 {
     double exact[4], color[4];
-    raster_run(raster, pixel, &GLSL_EXACT, INT_MAX, exact);
-    const GlslRun *run = raster_run(raster, pixel, raster_driver(raster), INT_MAX, color);
+    const GlslRun *run = raster_run(raster, pixel, &GLSL_EXACT, INT_MAX, exact);
+    bool undefined = origin_undefined(raster, run, exact);
+    run = raster_run(raster, pixel, raster_driver(raster), INT_MAX, color);
+    undefined |= origin_undefined(raster, run, color);
     if (run->discarded)
         return;
     shown->count = 1;
     shown->draw = pixel->draw;
-    shown->place.line = -1;
-    if (!(origin_apart(color, exact) >= SHOW_LEAST))
+    shown->place.line = undefined ? -2 : -1;
+    if (undefined || !(origin_apart(color, exact) >= SHOW_LEAST))
         return;
     const int count = run->event_count;
     GlslEvent *events = memory_copy(run->events, sizeof *events * (size_t)count);
@@ -283,6 +297,8 @@ static void *work(void *argument)
                 &show->pixels[(size_t)row * (size_t)show->width + (size_t)(i % show->width)]);
         }
     }
+    if (raster_stopped(raster))
+        atomic_store(&job->stopped, true);
     free(pixels);
     raster_close(raster);
     return NULL;
@@ -380,6 +396,7 @@ bool show_open(Show *show, const Capture *capture, const GlslArithmetic *driver,
         done = message_set(message, "show: not enough memory for %dx%d pixels", size[0], size[1]);
     if (done)
         work_all(&job);
+    show->stopped = atomic_load(&job.stopped);
     bool shown = !done || job.component < 0;
     for (int i = 0; i < size[0] * size[1] && !shown; i++)
         shown = show->pixels[i].count > 0;

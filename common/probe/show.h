@@ -20,7 +20,7 @@ typedef struct ShowPixel {
         struct {
             int draw;
             GlslPlace place; /* of its fragment shader; line 0: the vertex shader, -1: nothing to
-                                blame */
+                                blame, -2: undefined */
         };
     };
 } ShowPixel;
@@ -38,6 +38,7 @@ typedef struct Show {
     int width, height;
     int color_bits;    /* as the driver has it (GlslArithmetic) */
     ShowPixel *pixels; /* row 0 is the picture's top */
+    bool stopped;      /* a loop does not end */
     bool unknown; /* why it failed: no shader has the value; the message lists those there are */
 } Show;
 

@@ -17,7 +17,7 @@ const double SHOW_LEAST = 0.01;
 
 static const unsigned char NEGATIVE_COLOR[3] = {0, 128, 255}, CLIPPED_COLOR[3] = {255, 0, 255},
                            UNDEFINED_COLOR[3] = {255, 128, 0}, SMALL[3] = {64, 64, 64},
-                           OTHER[3] = {160, 160, 160};
+                           OTHER[3] = {160, 160, 160}, WHITE[3] = {255, 255, 255};
 
 /* Lengths of directions: interpolated normals of a coarse mesh are shorter than 1. */
 static const double DIRECTION = 0.125;
@@ -155,7 +155,8 @@ static void put_legend(const Range *range, FILE *legend)
         put_count(legend, range->faults[NEGATIVE], "negative, in azure");
     if (range->form == COLORS)
         put_count(legend, range->faults[CLIPPED], "over 1, in magenta");
-    put_count(legend, range->faults[UNDEFINED], "no number, in orange");
+    put_count(legend, range->faults[UNDEFINED],
+              range->form == ERRORS ? "undefined, in orange" : "no number, in orange");
     fprintf(legend, "; black: no triangle%s\n", range->shown ? "" : ": nothing here computes it");
 }
 
@@ -206,8 +207,8 @@ static int more_pixels(const void *a, const void *b)
     return (x < y) - (x > y);
 }
 
-/* Colours that those who see fewer can tell apart, too (Okabe and Ito, Color universal design,
- * 2008). */
+/* Colours of which those who see fewer can tell the first seven apart, too (Okabe and Ito, Color
+ * universal design, 2008). */
 static const struct {
     const char *name;
     unsigned char color[3];
@@ -217,18 +218,23 @@ static const struct {
                {"yellow", {240, 228, 66}},
                {"blue", {0, 114, 178}},
                {"vermilion", {213, 94, 0}},
-               {"reddish purple", {204, 121, 167}}};
+               {"reddish purple", {204, 121, 167}},
+               {"brown", {130, 70, 20}},
+               {"lime", {170, 230, 80}},
+               {"violet", {110, 60, 190}},
+               {"pink", {255, 190, 210}},
+               {"dark green", {0, 80, 40}}};
 enum { PALETTE_COLORS = sizeof PALETTE / sizeof PALETTE[0] };
 
 static void paint_blame(const Show *show, Image *picture, FILE *legend)
 {
     Line *lines = NULL;
     int count = 0, room = 0;
-    long small = 0;
+    long without[2] = {0}; /* a line: undefined, and small */
     const int pixels = show->width * show->height;
     for (int i = 0; i < pixels; i++) {
         if (show->pixels[i].count && show->pixels[i].place.line < 0)
-            small++;
+            without[show->pixels[i].place.line + 2]++;
         else if (show->pixels[i].count) {
             const int line = line_of(show, &show->pixels[i], &lines, &count, &room);
             lines[line].pixels++;
@@ -240,7 +246,7 @@ static void paint_blame(const Show *show, Image *picture, FILE *legend)
         const ShowPixel *pixel = &show->pixels[i];
         unsigned char *color = (unsigned char *)picture->pixels + 4 * (size_t)i;
         if (pixel->count && pixel->place.line < 0)
-            memcpy(color, SMALL, 3);
+            memcpy(color, pixel->place.line == -1 ? SMALL : WHITE, 3);
         else if (pixel->count) {
             const int line = line_of(show, pixel, &lines, &count, &room);
             memcpy(color, line < PALETTE_COLORS ? PALETTE[line].color : OTHER, 3);
@@ -249,9 +255,11 @@ static void paint_blame(const Show *show, Image *picture, FILE *legend)
     fprintf(legend, "the line in which most of a pixel's error by rounding is born\n");
     for (int i = 0; i < count; i++)
         fprintf(legend, "%8ld pixels, %s: %s%s%s\n", lines[i].pixels,
-                i < PALETTE_COLORS ? PALETTE[i].name : "light grey", lines[i].name,
+                i < PALETTE_COLORS ? PALETTE[i].name : "light grey, as all further", lines[i].name,
                 lines[i].text[0] ? ": " : "", lines[i].text);
-    fprintf(legend, "%8ld pixels, dark grey: off by less than a hundredth of a step\n", small);
+    fprintf(legend, "%8ld pixels, dark grey: off by less than a hundredth of a step\n", without[1]);
+    if (without[0])
+        fprintf(legend, "%8ld pixels, white: the colour is undefined\n", without[0]);
     free(lines);
 }
 
@@ -278,6 +286,8 @@ static void paint_colors(const Show *show, Image *picture)
 
 void show_paint(const Show *show, Image *picture, FILE *legend)
 {
+    if (show->stopped)
+        fprintf(legend, "a loop does not end: give it a number of turns\n");
     if (show->kind == SHOW_COLOR) {
         paint_colors(show, picture);
         return;

@@ -88,7 +88,7 @@ static size_t place_in_image(const Image *image, const ExactView *view, int x, i
 void picture_error_add(PictureError *error, const Image *image, const ExactView *view)
 {
     const Reference *exact = view->exact;
-    for (int y = 0; y < exact->height; y++) {
+    for (int y = 0; y < exact->height; y++)
         for (int x = 0; x < exact->width; x++) {
             const size_t pixel = place_in_image(image, view, x, y);
             const size_t exact_pixel = (size_t)y * (size_t)exact->width + (size_t)x;
@@ -100,7 +100,6 @@ void picture_error_add(PictureError *error, const Image *image, const ExactView 
             if (inside || !is_background(exact, exact_pixel, image, pixel))
                 error_sum_add(inside ? &error->interior : &error->edges, found, pixel);
         }
-    }
 }
 
 const unsigned char PICTURE_ERROR_COLORS[4][3] = {
@@ -121,12 +120,11 @@ static void color_of(double error, unsigned char *color)
 void picture_error_map(Image *map, const Image *image, const ExactView *view)
 {
     const Reference *exact = view->exact;
-    for (int y = 0; y < exact->height; y++) {
+    for (int y = 0; y < exact->height; y++)
         for (int x = 0; x < exact->width; x++) {
             const size_t pixel = place_in_image(image, view, x, y);
             const size_t exact_pixel = (size_t)y * (size_t)exact->width + (size_t)x;
             const PixelError found = pixel_error(image, pixel, &exact->color[3 * exact_pixel]);
             color_of(found.largest, (unsigned char *)map->pixels + 4 * pixel);
         }
-    }
 }

@@ -24,15 +24,25 @@ static void grow(MeshBox *all, const MeshBox *box, Mat4 world_from_box)
     }
 }
 
+/* Of an animation, where everything is at some of its times. */
 static void find_middle(FileScene *made)
 {
+    enum { TIMES = 16 };
     const SceneFile *file = &made->file;
+    double seconds = 0;
     MeshBox all = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
     MeshBox *boxes = memory_new((size_t)file->mesh_count, sizeof *boxes);
     for (int i = 0; i < file->mesh_count; i++)
         boxes[i] = mesh_bounds(&file->meshes[i]);
-    for (int i = 0; i < file->object_count; i++)
-        grow(&all, &boxes[file->objects[i].mesh], made->poses[file->objects[i].node]);
+    for (int i = 0; i < file->channel_count; i++)
+        seconds = fmax(seconds,
+                       (double)file->keys[file->channels[i].first + file->channels[i].count - 1]);
+    for (int t = 0; t <= (file->channel_count > 0 ? TIMES : 0); t++) {
+        scene_file_pose(file, seconds * t / (TIMES + 1), made->poses);
+        for (int i = 0; i < file->object_count; i++)
+            grow(&all, &boxes[file->objects[i].mesh], made->poses[file->objects[i].node]);
+    }
+    scene_file_pose(file, 0, made->poses);
     free(boxes);
     const Vec3 half = vec3_scale(vec3_subtract(all.high, all.low), 0.5);
     made->middle = vec3_add(all.low, half);
@@ -40,6 +50,8 @@ static void find_middle(FileScene *made)
 }
 
 /* Cameras */
+
+static const double RADIANS = 0.017453292519943295;
 
 static bool list_cameras(const SceneFile *file, const char *asked, Message *message)
 {
@@ -74,7 +86,7 @@ static bool choose_camera(FileScene *made, const char *asked, Message *message)
 /* From in front, the right and above, so far away that the sphere around everything is seen. */
 static Camera fitting_camera(const FileScene *made)
 {
-    static const double FOVY = 40, MARGIN = 1.05, RADIANS = 0.017453292519943295;
+    static const double FOVY = 40, MARGIN = 1.05;
     const double distance = made->radius / sin(FOVY * RADIANS / 2), r = MARGIN * made->radius;
     const Vec3 way = vec3_unit((Vec3){0.5, 0.35, 1});
     return (Camera){.eye = vec3_add(made->middle, vec3_scale(way, distance)),
@@ -83,6 +95,20 @@ static Camera fitting_camera(const FileScene *made)
                     .fovy = FOVY,
                     .near = distance - r,
                     .far = distance + r};
+}
+
+/* An orthographic view from far away, as high in the middle of everything: of things before and
+ * behind that the size is wrong by a 300th. */
+static void go_away(const FileScene *made, double half_height, Camera *camera)
+{
+    const Vec3 look = vec3_unit(vec3_subtract(camera->center, camera->eye));
+    const double depth = vec3_dot(vec3_subtract(made->middle, camera->eye), look);
+    const double away = 300 * fmax(half_height, made->radius), back = away - depth;
+    camera->eye = vec3_subtract(camera->eye, vec3_scale(look, back));
+    camera->center = vec3_add(camera->eye, vec3_scale(look, away));
+    camera->fovy = 2 / RADIANS * atan(half_height / away);
+    camera->near += back;
+    camera->far = camera->far > 0 ? camera->far + back : 0;
 }
 
 static Camera file_camera(const FileScene *made)
@@ -101,6 +127,8 @@ static Camera file_camera(const FileScene *made)
     }
     if (made->file.own)
         return camera;
+    if (from->half_height > 0)
+        go_away(made, from->half_height, &camera);
     /* As near and as far as the file has it, but no nearer or farther than anything is. */
     const double r = 1.05 * made->radius;
     const double depth = vec3_dot(vec3_subtract(made->middle, camera.eye),
@@ -244,7 +272,6 @@ static bool open_file(FileScene *made, const FileSceneOptions *options, Message 
     made->objects = memory_new((size_t)file->object_count, sizeof *made->objects);
     made->lights = memory_new((size_t)file->light_count + 1, sizeof *made->lights);
     made->exposure = 1;
-    scene_file_pose(file, 0, made->poses);
     find_middle(made);
     choose_exposure(made, options->exposure);
     file_scene_make(made, 0, &scene);

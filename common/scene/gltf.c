@@ -60,6 +60,8 @@ static bool add_light(Reading *reading, const json_t *node, int number)
                            "lights %lld: innerConeAngle %g and outerConeAngle %g: must be "
                            "0 <= inner <= outer <= pi / 2",
                            (long long)index, inner, outer);
+    static const double FAR = 1e15; /* nothing is farther */
+    const double range = gltf_number(from, "range", 0);
     FileLight *to = scene_file_add(reading->file, FILE_LIGHTS, reading->gltf.reason);
     if (!to)
         return false;
@@ -73,7 +75,7 @@ static bool add_light(Reading *reading, const json_t *node, int number)
                         .specular = color,
                         .cutoff = fmin(outer * DEGREES, 90),
                         .quadratic = !sun,
-                        .range = sun ? 0 : fmax(gltf_number(from, "range", 0), 0)};
+                        .range = sun || range > FAR ? 0 : fmax(range, 0)};
     if (spot)
         to->light.exponent = scene_file_spot_exponent(inner, outer);
     if (gltf_own(from)) {
@@ -88,7 +90,6 @@ static bool add_light(Reading *reading, const json_t *node, int number)
 
 static bool add_camera(Reading *reading, const json_t *node, int number)
 {
-    static const double AWAY = 100; /* an orthographic view, in its half heights */
     const json_int_t index = gltf_whole(node, "camera", -1);
     const json_t *from = index >= 0 ? gltf_item(&reading->gltf, "cameras", index) : NULL;
     const json_t *flat = json_object_get(from, "orthographic"),
@@ -98,18 +99,15 @@ static bool add_camera(Reading *reading, const json_t *node, int number)
     FileCamera *to = scene_file_add(reading->file, FILE_CAMERAS, reading->gltf.reason);
     if (!to)
         return false;
-    const double half = gltf_number(lens, "ymag", 1), away = flat ? AWAY * half : 0;
-    const double far = gltf_number(lens, "zfar", 0);
     gltf_name(to->name, from);
     gltf_name(to->place, node);
     to->node = number;
-    to->camera = (Camera){.eye = {0, 0, away},
-                          .center = {0, 0, -1},
+    to->half_height = flat && !gltf_own(from) ? fabs(gltf_number(lens, "ymag", 1)) : 0;
+    to->camera = (Camera){.center = {0, 0, -1},
                           .up = {0, 1, 0},
-                          .fovy = flat ? 2 * DEGREES * atan(1 / AWAY)
-                                       : DEGREES * gltf_number(lens, "yfov", 0.8),
-                          .near = gltf_number(lens, "znear", 0) + away,
-                          .far = far > 0 ? far + away : 0};
+                          .fovy = DEGREES * gltf_number(lens, "yfov", 0.8),
+                          .near = gltf_number(lens, "znear", 0),
+                          .far = fmax(gltf_number(lens, "zfar", 0), 0)};
     scene_file_note(reading->file, flat, NOTE_ORTHOGRAPHIC);
     if (gltf_own(from)) {
         to->node = -1;

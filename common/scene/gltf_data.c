@@ -77,6 +77,9 @@ static bool find_chunks(Gltf *gltf, size_t size, const char **text, size_t *leng
     if (size < HEAD + CHUNK || word_at(gltf->file + 8) > size)
         return message_set(gltf->reason, "it ends after %zu bytes of %lu", size,
                            size < HEAD ? 20ul : (unsigned long)word_at(gltf->file + 8));
+    if (word_at(gltf->file + 4) != 2)
+        return message_set(gltf->reason, "a .glb of version %lu; 2 is read",
+                           (unsigned long)word_at(gltf->file + 4));
     *length = word_at(gltf->file + HEAD);
     *text = gltf->file + HEAD + CHUNK;
     if (memcmp(gltf->file + HEAD + 4, "JSON", 4) != 0 || *length > size - HEAD - CHUNK)
@@ -363,6 +366,9 @@ static bool find_place(Gltf *gltf, const json_t *where, const char *name, Place 
     const size_t element = bytes_of(place->component) * (size_t)place->size;
     place->stride = stride > 0 ? (size_t)stride : element;
     const uint64_t last = (place->count - 1) * (uint64_t)place->stride + element; /* limited */
+    if (stride > 0 && (size_t)stride < element)
+        return message_set(gltf->reason, "%s: byteStride %lld is less than an element's %zu bytes",
+                           name, (long long)stride, element);
     if (offset < 0 || stride < 0 || stride > 1 << 20 || offset > length ||
         last > (uint64_t)(length - offset))
         return message_set(gltf->reason,

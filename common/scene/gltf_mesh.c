@@ -171,6 +171,11 @@ static uint32_t *read_corners(Reading *reading, const json_t *primitive, size_t 
     const json_int_t accessor = gltf_whole(primitive, "indices", -1);
     int size = 1;
     *count = vertices;
+    if (mode > 6) {
+        message_set(reading->gltf.reason, "a primitive's mode is %lld; there are 0 to 6",
+                    (long long)mode);
+        return NULL;
+    }
     double *list = accessor >= 0 ? gltf_accessor(&reading->gltf, accessor, count, &size) : NULL;
     if (gltf_failed(reading) || mode < 4 || *count < 3) {
         free(list);

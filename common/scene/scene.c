@@ -31,27 +31,24 @@ static const double MAX_POSITION = 1e15;
 
 static bool check_vector(const char *subject, const char *name, Vec3 v, Message *message)
 {
-    if (fabs(v.x) <= MAX_POSITION && fabs(v.y) <= MAX_POSITION && fabs(v.z) <= MAX_POSITION)
-        return true;
-    return message_set(message, "%s: %s (%g, %g, %g): must be %g at most", subject, name, v.x, v.y,
+    return (fabs(v.x) <= MAX_POSITION && fabs(v.y) <= MAX_POSITION && fabs(v.z) <= MAX_POSITION) ||
+           message_set(message, "%s: %s (%g, %g, %g): must be %g at most", subject, name, v.x, v.y,
                        v.z, MAX_POSITION);
 }
 
 static bool check_direction(const char *subject, const char *name, Vec3 v, Message *message)
 {
     Vec3 unit;
-    if (vec3_normalize(v, &unit))
-        return true;
-    return message_set(message, "%s: %s (%g, %g, %g): must be finite and not zero", subject, name,
+    return vec3_normalize(v, &unit) ||
+           message_set(message, "%s: %s (%g, %g, %g): must be finite and not zero", subject, name,
                        v.x, v.y, v.z);
 }
 
 static bool check_range(const char *subject, const char *name, double value, double min, double max,
                         Message *message)
 {
-    if (value >= min && value <= max)
-        return true;
-    return message_set(message, "%s: %s %g: must be %g to %g", subject, name, value, min, max);
+    return (value >= min && value <= max) ||
+           message_set(message, "%s: %s %g: must be %g to %g", subject, name, value, min, max);
 }
 
 /* Intensities may exceed 1, reflectivities may not; `most` tells which. */
@@ -82,11 +79,10 @@ static bool check_light(const Light *light, int number, Message *message)
         !check_range(subject, "quadratic", light->quadratic, 0, MAX_COEFFICIENT, message) ||
         !check_range(subject, "range", light->range, 0, MAX_POSITION, message))
         return false;
-    if (light->kind == LIGHT_POINT)
-        return true;
-    return check_direction(subject, "direction", light->direction, message) &&
-           check_range(subject, "cutoff", light->cutoff, 0, 90, message) &&
-           check_range(subject, "exponent", light->exponent, 0, 128, message);
+    return light->kind == LIGHT_POINT ||
+           (check_direction(subject, "direction", light->direction, message) &&
+            check_range(subject, "cutoff", light->cutoff, 0, 90, message) &&
+            check_range(subject, "exponent", light->exponent, 0, 128, message));
 }
 
 static bool check_material(const char *subject, const Material *material, Message *message)
@@ -233,10 +229,11 @@ static void depth_of(const Object *object, Mat4 eye_from_object, double *near, d
 
 void scene_fit_depth(Scene *scene)
 {
-    static const double MARGIN = 0.01, MAX_RATIO = 1e5;
+    static const double MARGIN = 0.01, MAX_RATIO = 1e5, AROUND_RATIO = 1e3;
     Camera *camera = &scene->camera;
     Mat4 eye_from_world;
     double near = INFINITY, far = -INFINITY;
+    bool around = false; /* the eye is in an object's box: what is seen of it may be anywhere */
     if (!mat4_try_look_at(camera->eye, camera->center, camera->up, &eye_from_world))
         return;
     for (int i = 0; i < scene->object_count; i++) {
@@ -244,15 +241,18 @@ void scene_fit_depth(Scene *scene)
         double first, last;
         depth_of(object, scene_eye_from_object(camera, eye_from_world, object->world_from_object),
                  &first, &last);
-        near = fmin(near, first);
+        around |= first <= 0 && last > 0;
+        near = first > 0 ? fmin(near, first) : near;
         far = fmax(far, last);
     }
-    if (!(far > 0) || !isfinite(near) || !isfinite(far))
+    if (!(far > 0) || !isfinite(far))
         return; /* nothing is before the eye */
     if (far > camera->far) {
         camera->far = far * (1 + MARGIN);
-        camera->near = fmax(camera->near, near / 2);
+        camera->near = around ? camera->near : fmax(camera->near, near / 2);
     }
+    if (around)
+        near = fmin(near, camera->far / AROUND_RATIO);
     if (near < camera->near)
         camera->near = fmin(camera->near, fmax(near * (1 - MARGIN), camera->far / MAX_RATIO));
 }

@@ -133,7 +133,8 @@ bool scene_camera(const Camera *camera, double aspect, Mat4 *eye_from_world, Mat
 double scene_fovy(const Camera *camera, double aspect);
 
 /* Moves the near and far planes outwards where an object lies before or behind them, as far as the
- * depth buffer's precision lets them: near is not less than far / 1e5. */
+ * depth buffer's precision lets them: near is not less than far / 1e5, nor, of an object whose box
+ * has the eye in it, than far / 1e3. */
 void scene_fit_depth(Scene *scene);
 
 /* Whether no point of an object hides a light from another that faces it: it stands for a flat or a

@@ -47,6 +47,7 @@ typedef struct FileLight {
 
 typedef struct FileCamera {
     Camera camera;                          /* far 0: as the scene needs it */
+    double half_height;                     /* of an orthographic view; 0: it is none */
     int node;                               /* -1: as it is */
     char name[FILE_NAME], place[FILE_NAME]; /* its own and its node's */
 } FileCamera;

@@ -60,7 +60,9 @@ static bool read_mean(const char *bytes, size_t size, Vec3 *mean, Message *reaso
     const int length = size < 1 << 30 ? (int)size : 1 << 30;
     int width, height, channels;
     if (!stbi_info_from_memory(file, length, &width, &height, &channels))
-        return message_set(reason, "no PNG, JPEG, BMP or TGA");
+        return message_set(reason, strcmp(stbi_failure_reason(), "too large") == 0
+                                       ? "too many pixels"
+                                       : "no PNG, JPEG, BMP or TGA");
     const long long pixels = (long long)width * height;
     if (pixels < 1 || pixels > TEXTURE_PIXELS || all + pixels > TEXTURE_ALL_PIXELS)
         return message_set(reason, "%d x %d pixels, too many", width, height);

@@ -298,7 +298,6 @@ bool shadow_cast(ShadowVolumes *volumes, ShadowMask *mask, const ShadowThrow *th
     glVertexAttribPointer(position, 4, GL_FLOAT, GL_FALSE, 0, NULL);
     draw_list(volume, SHADOW_VOLUME_SIDES, 2 * silhouette->mesh->vertex_count);
     volumes->drawn++;
-    volumes->triangles += volume->counts[SHADOW_VOLUME_SIDES] / 3;
     return true;
 }
 

@@ -41,8 +41,8 @@ typedef struct ShadowVolumes {
     ShadowVolume volume;      /* while one is made */
     UploadedVolume *uploaded; /* in the order of the last frame, which the next mostly has, too */
     size_t uploaded_count, uploaded_capacity, next;
-    long long drawn, triangles; /* so far, for tests and --explain's reader */
-    long long made;             /* of those drawn: others were as in the last frame */
+    long long drawn; /* so far, for tests and --explain's reader */
+    long long made;  /* of those drawn: others were as in the last frame */
 } ShadowVolumes;
 
 /* What a caster keeps from a light. */

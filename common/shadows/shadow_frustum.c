@@ -156,14 +156,13 @@ static Vec3 middle_of(const ShadowFitting *fitting)
 /* Whether what casts is within the angle that one frustum sees. */
 static bool sees_all(const ShadowFrustum *frustum, const ShadowFitting *fitting)
 {
-    for (int i = 0; i < fitting->count; i++) {
+    for (int i = 0; i < fitting->count; i++)
         for (int c = 0; c < 8 && fitting->throws[i] >> fitting->number & 1; c++) {
             const Vec3 p =
                 mat4_transform_point(frustum->light_from_world, corner_of(&fitting->boxes[i], c));
             if (!(fmax(fabs(p.x), fabs(p.y)) < -WIDEST * p.z))
                 return false;
         }
-    }
     return true;
 }
 

@@ -174,13 +174,12 @@ bool mesh_quad(Mesh *mesh, int divisions, Message *message)
                    mesh_grid_size(divisions, divisions, MESH_POLE_NONE), message))
         return false;
     MeshVertex *vertex = mesh->vertices;
-    for (int j = 0; j <= divisions; j++) {
+    for (int j = 0; j <= divisions; j++)
         for (int i = 0; i <= divisions; i++) {
             const double x = (double)(2 * i - divisions) / divisions;
             const double y = (double)(divisions - 2 * j) / divisions;
             set_vertex(vertex++, (Vec3){x, y, 0}, (Vec3){0, 0, 1});
         }
-    }
     mesh_grid(mesh->indices, 0, divisions, divisions, MESH_POLE_NONE);
     return true;
 }

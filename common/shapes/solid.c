@@ -35,7 +35,7 @@ static bool box_mesh(double half_side, int divisions, Mesh *mesh, Message *messa
         const MeshVertex *corner = cube.vertices + 4 * face;
         indices = mesh_grid(indices, (uint32_t)(vertex - mesh->vertices), divisions, divisions,
                             MESH_POLE_NONE);
-        for (int row = 0; row <= divisions; row++) {
+        for (int row = 0; row <= divisions; row++)
             for (int column = 0; column <= divisions; column++, vertex++) {
                 const double down = (double)row / divisions, right = (double)column / divisions;
                 *vertex = corner[0];
@@ -46,7 +46,6 @@ static bool box_mesh(double half_side, int divisions, Mesh *mesh, Message *messa
                                 right * ((double)corner[3].position[k] - first));
                 }
             }
-        }
     }
     mesh_close(&cube);
     return true;

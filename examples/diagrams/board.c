@@ -269,7 +269,7 @@ static bool find_place(const Board *board, Place *place, double preferred, bool 
     enum { ANGLES = 24 };
     const double em = board->em;
     const double far = hypot(board->drawing->width, board->drawing->height);
-    for (double gap = 0.3 * em; gap < far; gap += 0.4 * em) {
+    for (double gap = 0.3 * em; gap < far; gap += 0.4 * em)
         for (int i = 0; i < ANGLES; i++) {
             const double turn = 360.0 / ANGLES * ((i + 1) / 2) * (i % 2 ? 1 : -1);
             const double angle = RADIANS * (preferred + turn);
@@ -281,7 +281,6 @@ static bool find_place(const Board *board, Place *place, double preferred, bool 
             if (is_free(board, box_about(place->center, place->width, place->height), of_lines))
                 return true;
         }
-    }
     return false;
 }
 

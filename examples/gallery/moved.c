@@ -59,7 +59,7 @@ typedef struct Sides {
 static void open_sides(const Judge *judge, const ProofTriangle *triangle, Sides *sides)
 {
     const Proof *proof = judge->question->proof;
-    double p[3][4];
+    double p[3][PROOF_PLACE];
     for (int i = 0; i < 3; i++) {
         proof_vertex(proof, triangle->draw, triangle->corners[i], p[i]);
         sides->z[i] = p[i][2];
@@ -108,7 +108,7 @@ static void find_box(const Judge *judge, const ProofTriangle *triangle, const Si
     const int *v = sides->viewport, scale = question->scale, height = question->now->height;
     double low[2] = {INFINITY, INFINITY}, high[2] = {-(double)INFINITY, -(double)INFINITY};
     for (int i = 0; i < 3; i++) {
-        double p[4];
+        double p[PROOF_PLACE];
         proof_vertex(question->proof, triangle->draw, triangle->corners[i], p);
         for (int k = 0; k < 2; k++) {
             const bool behind = !(p[3] > 1e-6);
@@ -185,8 +185,8 @@ static void find_candidates(const Judge *judge)
     }
 }
 
-/* Lines and points, which are not judged: a pixel within this distance is one of theirs. */
-static const double LINE_REACH = 1.5, POINT_REACH = 16;
+/* Lines and points, which are not judged: a pixel within their width and this is one of theirs. */
+static const double BESIDE = 1;
 
 static void cover(const Judge *judge, const double a[2], const double b[2], double reach)
 {
@@ -206,18 +206,18 @@ static void find_lines(const Judge *judge, int number)
 {
     const CaptureDraw *draw = &judge->question->proof->capture.draws[number];
     const int *v = draw->viewport, step = draw->mode == GL_LINES ? 2 : 1;
-    const double reach = judge->reach + (draw->mode == GL_POINTS ? POINT_REACH : LINE_REACH) *
-                                            judge->question->scale *
-                                            fmax((double)draw->line_width, 1);
     for (int i = 0; i < draw->vertex_count; i += step) {
-        double ends[2][2];
+        double ends[2][2], width = fmax((double)draw->line_width, 1);
         for (int k = 0; k < 2; k++) {
             const int next = draw->mode == GL_POINTS ? i : (i + k) % draw->vertex_count;
-            double p[4];
+            double p[PROOF_PLACE];
             proof_vertex(judge->question->proof, number, draw->vertices[next], p);
+            if (draw->mode == GL_POINTS)
+                width = sqrt(2) * p[4]; /* a square's diagonal */
             for (int j = 0; j < 2; j++)
                 ends[k][j] = v[j] + (p[j] / fmax(p[3], 1e-6) + 1) / 2 * v[2 + j];
         }
+        const double reach = judge->reach + (width / 2 + BESIDE) * judge->question->scale;
         cover(judge, ends[0], ends[1], reach);
     }
 }

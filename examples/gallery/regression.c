@@ -67,13 +67,39 @@ static bool read_before(Regression *regression, const char *name, Message *messa
            picture_read(before, message);
 }
 
+/* Adds the options of a command that another lacks. */
+static void add_options(const char *command, const char *other, Message *message)
+{
+    for (const char *at = strchr(command, ' '); at;) {
+        const char *next = strstr(at + 1, " -");
+        const int length = next ? (int)(next - at) : (int)strlen(at);
+        char *option = memory_format("%.*s ", length, at), *within = memory_format("%s ", other);
+        if (!strstr(within, option))
+            message_add(message, "%.*s", length, at);
+        free(option);
+        free(within);
+        at = next;
+    }
+}
+
 bool regression_compare(Regression *regression, const Picture *picture, bool *same,
                         Message *message)
 {
     const Image *now = &picture->image, *before = &regression->before.image;
     if (!read_before(regression, picture->title, message))
         return false;
-    *same = before->width == now->width && before->height == now->height &&
+    const bool sized = before->width == now->width && before->height == now->height;
+    if (!sized && strcmp(regression->before.command, picture->command) != 0) {
+        message_set(message, "%s: is of %dx%d pixels, not %dx%d; draw as it was drawn, with",
+                    regression->before.path, before->width, before->height, now->width,
+                    now->height);
+        add_options(regression->before.command, picture->command, message);
+        if (strstr(picture->command, " --samples ") &&
+            !strstr(regression->before.command, " --samples ")) /* which it has by itself */
+            message_add(message, " --samples 0");
+        return false;
+    }
+    *same = sized &&
             memcmp(before->pixels, now->pixels, image_row_size(now) * (size_t)now->height) == 0;
     regression->same += *same;
     return true;
@@ -284,6 +310,8 @@ static void say_moved(const Moved *moved, const Changed *changed, const char *na
         snprintf(rest, sizeof rest,
                  "%d by rounding; %d are drawn by no shader, and cannot be judged", rounded,
                  counts[MOVED_UNKNOWN]);
+    } else if (counts[MOVED_EDGE]) {
+        snprintf(rest, sizeof rest, "all by rounding or at edges");
     }
     if (counts[MOVED_EDGE])
         snprintf(edges, sizeof edges, " (%d at edges)", counts[MOVED_EDGE]);

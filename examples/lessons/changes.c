@@ -149,7 +149,7 @@ bool changes_between(Changes *changes, ChangeText before, ChangeText after, int 
     }
     const size_t cells = (size_t)(pair->count[0] + 1) * (size_t)(pair->count[1] + 1);
     pair->common = memory_new(cells, sizeof *pair->common);
-    for (int i = pair->count[0] - 1; i >= 0; i--) {
+    for (int i = pair->count[0] - 1; i >= 0; i--)
         for (int j = pair->count[1] - 1; j >= 0; j--) {
             const uint16_t left = *common_at(pair, i, j + 1), below = *common_at(pair, i + 1, j);
             *common_at(pair, i, j) = same_at(pair, i, j)
@@ -157,7 +157,6 @@ bool changes_between(Changes *changes, ChangeText before, ChangeText after, int 
                                      : left > below ? left
                                                     : below;
         }
-    }
     merge(&all, pair);
     bool gap = false;
     *changed = 0;

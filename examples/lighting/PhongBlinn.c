@@ -91,12 +91,11 @@ static void retouch(Image *image)
     unsigned char *pixels = image->pixels;
     for (int y = 0; y < image->height; y++) {
         unsigned char *row = pixels + 4 * (size_t)y * (size_t)image->width;
-        for (int x = 0; x < third; x++) {
+        for (int x = 0; x < third; x++)
             for (int c = 0; c < 3; c++) {
                 const int apart = abs(row[4 * x + c] - row[4 * (third + x) + c]);
                 row[4 * (2 * third + x) + c] = (unsigned char)fmin(gain * apart, 255);
             }
-        }
     }
 }
 

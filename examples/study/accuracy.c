@@ -26,10 +26,8 @@ static bool by_rms, quick, fresh, all_rows, markdown, merge;
 static Part part;
 static const char *quality_asked, *compared, *scene_file;
 static int seed = 1;
-
 static int proved = STUDY_SCENE_COUNT; /* none */
-
-static ProofCameras cameras; /* zeroed: those of the scenes */
+static ProofCameras cameras;           /* zeroed: those of the scenes */
 
 /* The names of the study's scenes, and the last: all of them, or none. */
 static const char *SCENES[STUDY_SCENE_COUNT + 2], *PROVED[STUDY_SCENE_COUNT + 2];
@@ -145,8 +143,7 @@ typedef struct Subject {
 
 static bool open_subject(Subject *subject, Survey *survey, int number, Message *message)
 {
-    subject->survey = survey;
-    subject->name = STUDY_SCENES[number].name;
+    *subject = (Subject){.survey = survey, .name = STUDY_SCENES[number].name};
     study_scene(number, &subject->made);
     return survey_exact(survey, &subject->made.scene, &subject->exact, message);
 }
@@ -281,9 +278,7 @@ static bool print_tables(const Survey *survey, const int *scenes, int count, con
         table_machine(survey->like.renderer, stdout);
         findings_tables(&survey->results, stdout);
     }
-    fputs(more, stdout);
-    if (!markdown)
-        putchar('\n');
+    printf("%s%s", more, markdown ? "" : "\n");
     return true;
 }
 
@@ -374,12 +369,11 @@ static bool measure_one(Survey *survey, const Options *options, const Quality *q
     Results results = {.rows = NULL};
     Subject subject;
     const Sheet sheet = {"setting", *quality};
-    bool done = survey_again(survey, scene, quality, 1, &row, message);
-    if (!done)
+    if (!survey_again(survey, scene, quality, 1, &row, message))
         return false;
     results_add(&results, &row);
-    done = report_table(&results, STUDY_SCENES[scene].name, false, stdout, message) &&
-           open_subject(&subject, survey, scene, message);
+    bool done = report_table(&results, STUDY_SCENES[scene].name, false, stdout, message) &&
+                open_subject(&subject, survey, scene, message);
     if (done) {
         done = write_sheets(&subject, options, &sheet, 1, message);
         close_subject(&subject);
@@ -404,9 +398,8 @@ static bool measure(const Options *options, const Quality *quality, Message *mes
         scenes[0] = STUDY_FILE, count = 1;
     const SurveyPlan plan = {
         .seed = (unsigned)seed, .quick = quick, .fresh = fresh, .merge = merge, .part = part};
-    if (scene_file && !study_open_file(scene_file, message))
-        return false;
-    if (!survey_open(&survey, options, &plan, message))
+    if ((scene_file && !study_open_file(scene_file, message)) ||
+        !survey_open(&survey, options, &plan, message))
         return false;
     if (options->verbose)
         fprintf(stderr, "renderer: %s\nLP_NUM_THREADS: %s\n", survey.like.renderer,
@@ -428,6 +421,7 @@ static bool measure(const Options *options, const Quality *quality, Message *mes
 static bool check(const Options *options, Message *message)
 {
     const bool one = scene < STUDY_SCENE_COUNT || scene_file;
+    const bool limited = budget >= 0 || time_budget >= 0, below = budget < 0 && budget != -1;
     const char *const *names = (const char *const *)options->names;
     if (compared && (!names[0] || names[1]))
         return message_set(message, "--compare %s: needs one other folder, as in --compare A B",
@@ -437,33 +431,31 @@ static bool check(const Options *options, Message *message)
                            names[0]);
     if (scene_file && scene < STUDY_SCENE_COUNT)
         return message_set(message, "--scene and --scene-file: one of them");
-    if ((budget < 0 && budget != -1) || (time_budget < 0 && time_budget != -1))
+    if (below || (time_budget < 0 && time_budget != -1))
         return message_set(message, "--%s %g: must be 0 or more, or -1: off",
-                           budget < 0 && budget != -1 ? "budget" : "time-budget",
-                           budget < 0 && budget != -1 ? budget : time_budget);
+                           below ? "budget" : "time-budget", below ? budget : time_budget);
     if (budget >= 0 && time_budget >= 0)
         return message_set(message, "--budget and --time-budget: one of them");
-    if ((budget >= 0 || time_budget >= 0 || quality_asked) && !one)
+    if ((limited || quality_asked) && !one)
         return message_set(message, "%s: needs a scene, as in --scene shiny32",
                            budget >= 0        ? "--budget"
                            : time_budget >= 0 ? "--time-budget"
                                               : "--setting");
-    if (quality_asked && (budget >= 0 || time_budget >= 0))
+    if (quality_asked && limited)
         return message_set(message, "--setting: measures one; there is nothing to choose");
     if (part.count && merge)
         return message_set(message, "--part and --merge: one of them");
-    if ((part.count || merge) && (quality_asked || budget >= 0 || time_budget >= 0))
-        return message_set(message,
-                           "--%s: goes with a survey, not with --budget, --time-budget or "
-                           "--setting",
-                           part.count ? "part" : "merge");
+    if ((part.count || merge) && (quality_asked || limited))
+        return message_set(
+            message, "--%s: goes with a survey, not with --budget, --time-budget or --setting",
+            part.count ? "part" : "merge");
     if (quality_asked && fresh)
         return message_set(message, "--fresh: --setting keeps no rows, so there are none to drop");
     if (proved < STUDY_SCENE_COUNT && (one || quality_asked || part.count || merge || fresh))
         return message_set(message, "--prove: names its scene, and measures no settings");
     if (cameras.high[2] > 0 && proved == STUDY_SCENE_COUNT)
         return message_set(message, "--cameras: goes with --prove, as in --prove shiny32");
-    if (by_rms && budget < 0 && time_budget < 0)
+    if (by_rms && !limited)
         return message_set(message, "--rms: goes with --budget or --time-budget");
     return true;
 }

@@ -7,8 +7,10 @@
 #include "app/options.h"
 #include "base/clock.h"
 #include "base/output.h"
+#include "base/output_text.h"
 #include "base/progress.h"
 #include "probe/probe.h"
+#include "probe/stages.h"
 #include "reference/picture_error.h"
 #include "study/cases/hard_sheet.h"
 #include "study/results/table.h"
@@ -124,9 +126,8 @@ static bool draw_ways(Way *naive, Way *stable, HardResult *result, Message *mess
         .width = canvas->width, .height = canvas->height, .meshes = true, .centers = true};
     if (!image_open(&result->naive, canvas->width, canvas->height, IMAGE_BYTE, message) ||
         !image_open(&result->stable, canvas->width, canvas->height, IMAGE_BYTE, message) ||
-        !reference_open(&result->exact, stable->scene, &options, message))
-        return false;
-    if (!draw_frame(naive, message) || !canvas_read(canvas, &result->naive, message) ||
+        !reference_open(&result->exact, stable->scene, &options, message) ||
+        !draw_frame(naive, message) || !canvas_read(canvas, &result->naive, message) ||
         !draw_frame(stable, message) || !canvas_read(canvas, &result->stable, message))
         return false;
     size_t unused;
@@ -164,42 +165,104 @@ static bool open_naive(Lighting **lighting, const HardCase *of, const ShaderLoad
     return true;
 }
 
-/* What the plain formula's shader does at its worst pixel inside an object. */
-static bool find_cause(HardResult *result, const Way *way, const ShaderLoader *stable,
-                       Message *message)
+static bool capture_way(Capture *capture, const Way *way, const HardCase *of,
+                        const ShaderLoader *stable, Message *message)
 {
-    const size_t worst = result->naive_worst, width = (size_t)way->canvas->width;
+    ShaderReplacement replaced[3];
+    Way captured = *way;
+    captured.lighting = NULL;
+    capture_begin(capture, way->canvas);
+    const bool done = open_naive(&captured.lighting, of, stable, replaced, false, message) &&
+                      draw_frame(&captured, message);
+    capture_end(capture);
+    lighting_close(captured.lighting);
+    return done;
+}
+
+/* Goes on from an instruction to the next line that its stage has; false: there is none. */
+static bool next_line(const Stages *stages, int stage, int *at, GlslPlace *place,
+                      char line[PLACE_TEXT])
+{
+    const GlslCode *code = stages->codes[stage];
+    const int before = place->line;
+    for (; place->line == before && *at < code->instruction_count; ++*at)
+        *place = code->tree->nodes[code->instructions[*at].node].place;
+    place_line(stages->sources[stage], *place, line);
+    return place->line != before;
+}
+
+/* Adds the first line that is compiled in one way alone. */
+static bool say_line(FILE *file, const Stages *one, const Stages *other, const char *what)
+{
+    char line[PLACE_TEXT], known[PLACE_TEXT], name[PLACE_TEXT];
+    for (int stage = 1; stage >= 0; stage--) {
+        GlslPlace place = {.line = -1};
+        for (int at = 0; next_line(one, stage, &at, &place, line);) {
+            GlslPlace there = {.line = -1};
+            bool has = false;
+            for (int k = 0; !has && next_line(other, stage, &k, &there, known);)
+                has = strcmp(line, known) == 0;
+            if (has)
+                continue;
+            place_name(one->sources[stage], place, name);
+            fprintf(file, "%s: %s: %s\n", what, name, line);
+            return true;
+        }
+    }
+    return false;
+}
+
+/* What the formulas of the two differ in. */
+static void say_difference(FILE *file, const CaptureDraw *naive, const CaptureDraw *stable)
+{
+    Stages ways[2];
+    const bool opened = stages_open(&ways[0], naive, NULL);
+    if (stages_open(&ways[1], stable, NULL) && opened &&
+        !say_line(file, &ways[0], &ways[1], "the stable form has another line here"))
+        say_line(file, &ways[1], &ways[0], "only the stable form has this line");
+    stages_close(&ways[0]);
+    stages_close(&ways[1]);
+}
+
+/* What the plain formula's shader does at its worst pixel inside an object. */
+static bool find_cause(HardResult *result, const Way *naive, const Way *stable,
+                       const ShaderLoader *loader, Message *message)
+{
+    static const HardCase none = {.name = ""};
+    const size_t worst = result->naive_worst, width = (size_t)naive->canvas->width;
     ExactPixel exact = {.object = "inside an object"};
     ProbeQuestion question = {.driver = &GLSL_LLVMPIPE,
                               .column = (int)(worst % width),
                               .row = (int)(worst / width),
-                              .height = way->canvas->height,
+                              .height = naive->canvas->height,
                               .exact = &exact};
-    ShaderReplacement replaced[3];
-    Way captured = *way;
-    Capture capture;
+    Capture captures[2];
     Probe probe = {.raster = NULL};
-    captured.lighting = NULL;
-    capture_begin(&capture, way->canvas);
-    bool done = open_naive(&captured.lighting, result->of, stable, replaced, false, message) &&
-                draw_frame(&captured, message);
-    capture_end(&capture);
-    question.capture = &capture;
+    OutputText said;
+    bool done = capture_way(&captures[1], stable, &none, loader, message);
+    done = capture_way(&captures[0], naive, result->of, loader, message) && done;
+    question.capture = &captures[0];
     memcpy(question.drawn, (unsigned char *)result->naive.pixels + 4 * worst, 4);
     memcpy(exact.color, result->exact.color + 3 * worst, sizeof exact.color);
     done = done && probe_open(&probe, &question, message);
-    if (done)
-        result->verdict = probe_verdict(&probe);
+    output_text_open(&said);
+    const int draw = probe.pixel.draw;
+    if (done && probe.judged && probe.formula > probe.rounding && draw < captures[1].draw_count)
+        say_difference(said.file, &captures[0].draws[draw], &captures[1].draws[draw]);
+    char *verdict = done ? probe_verdict(&probe) : NULL;
+    fputs(verdict ? verdict : "", said.file);
+    free(verdict);
+    result->verdict = output_text_close(&said);
     probe_close(&probe);
-    lighting_close(captured.lighting);
-    capture_close(&capture);
+    capture_close(&captures[0]);
+    capture_close(&captures[1]);
     return done;
 }
 
 /* Whether it is in a shader that lights. */
-static bool is_shaders(const HardCase *of)
+static bool is_shaders(const HardCase *of, const Scene *naive)
 {
-    return of->precision ||
+    return of->precision || naive->skip_renormalization ||
            (of->replaced[0].name && strncmp(of->replaced[0].name, "lighting/", 9) == 0);
 }
 
@@ -226,8 +289,8 @@ static bool draw_case(const HardCase *of, const Canvas *first, const Options *op
         use_shadows(stable.lighting, &(ShadowSettings){.way = SHADOWS_OFF});
     done = done && draw_ways(&naive, &stable, result, message) &&
            measure(&timed, &stable, result, message);
-    if (done && asked < HARD_CASE_COUNT && is_shaders(of))
-        done = find_cause(result, &naive, &loader, message);
+    if (done && asked < HARD_CASE_COUNT && is_shaders(of, &made.naive))
+        done = find_cause(result, &naive, &stable, &loader, message);
     lighting_close(naive.lighting);
     lighting_close(timed.lighting);
     lighting_close(stable.lighting);
@@ -346,7 +409,7 @@ static const Usage usage = {
                "of shadows, in steps of 1/255. Times are of frames drawn in turn, and\n"
                "processor time if the processor draws; the noise is the difference between frames\n"
                "of the same program. If a shader is at fault, --case ends with what --probe finds\n"
-               "at the worst pixel: which line is undefined or loses the digits.\n"
+               "at the worst pixel: which line is undefined, loses the digits or is another one.\n"
                "\nTry:  hard_cases\n"
                "      hard_cases --list\n"
                "      hard_cases --case mirror -s 560x432\n",

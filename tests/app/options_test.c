@@ -125,11 +125,10 @@ typedef struct BadValues {
 static void refuse_all(const Usage *usage, const BadValues *cases, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
-        char line[128], said[128];
+        char line[128];
         for (const char *const *value = cases[i].values; *value; value++) {
             snprintf(line, sizeof line, "%s=%s", cases[i].option, *value);
-            snprintf(said, sizeof said, "%s %s: ", cases[i].option, *value);
-            refuse_as(usage, line, said);
+            refuse_as(usage, line, formatted("%s %s: ", cases[i].option, *value));
         }
         snprintf(line, sizeof line, "%s=", cases[i].option);
         refuse_as(usage, line, cases[i].option);
@@ -185,11 +184,8 @@ TEST(an_option_without_its_value_says_so)
         "--output",  "--size",    "--time",    "--angle",     "--frames",   "--fps",
         "--samples", "--backend", "--shaders", "--precision", "--compress", "-o",
         "-s",        "-t",        "-a",        "-n",          "-b"};
-    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
-        char said[64];
-        snprintf(said, sizeof said, "%s: needs a value", lines[i]);
-        refuse(lines[i], said);
-    }
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++)
+        refuse(lines[i], formatted("%s: needs a value", lines[i]));
     refuse("-vo", "-o: needs a value");
 }
 
@@ -271,11 +267,10 @@ static Parameter scene_row(const char *name)
 /* Writes an option of scenes, and reads what was written. */
 static void write_and_read(const char *name)
 {
-    char line[PARAMETER_TEXT_SIZE + 100], text[PARAMETER_TEXT_SIZE];
+    char text[PARAMETER_TEXT_SIZE];
     const Parameter row = scene_row(name);
     assert_true(parameter_write(&row, text, sizeof text));
-    snprintf(line, sizeof line, "--%s %s", name, text);
-    assert_int_equal(read_as(&SCENE, line), OPTIONS_RUN);
+    assert_int_equal(read_as(&SCENE, formatted("--%s %s", name, text)), OPTIONS_RUN);
 }
 
 /* Every set of terms and of four lights, in both orders; what is written is read as the same. */
@@ -389,11 +384,8 @@ TEST(several_pictures_need_exactly_one_number_in_the_name)
 {
     static const char *const bad[] = {"a.png",  "a%%.png",   "%d%d.png", "a%s.png",
                                       "a%.png", "a%-3d.png", "a%x.png",  "a%100d.png"};
-    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
-        char line[64];
-        snprintf(line, sizeof line, "--frames 2 -o %s", bad[i]);
-        refuse(line, bad[i]);
-    }
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++)
+        refuse(formatted("--frames 2 -o %s", bad[i]), bad[i]);
     accept("--frames 2 -o a%d.png");
     accept("--frames 2 -o a%04d.png");
     accept("--frames 2 -o 100%%_%3d.png");

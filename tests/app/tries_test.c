@@ -52,7 +52,7 @@ static void check_whole(const Scene *scene, double aspect, const char *what)
 /* In pictures of any shape, at moments of a turn. */
 static void check_scene(Renderer *renderer, const DrawRequest *request, const char *what)
 {
-    for (double seconds = request->seconds; seconds < request->seconds + 12; seconds += 3.1) {
+    for (double seconds = request->seconds; seconds < request->seconds + 12; seconds += 3.1)
         for (int view = 0; view < scene_view_count(renderer); view++) {
             SceneView opened;
             SUCCEEDS(scene_view_open(&opened, renderer, request, seconds, view, message));
@@ -60,13 +60,11 @@ static void check_scene(Renderer *renderer, const DrawRequest *request, const ch
                 check_whole(&opened.scene, aspect, what);
             scene_view_close(&opened);
         }
-    }
 }
 
 /* The picture must not be empty. */
 static void check_line(const Example *example, const char *line, bool drawn)
 {
-    char what[256];
     Renderer renderer;
     ParameterValue before[MOST_PARAMETERS];
     const Parameter *own = example->parameters;
@@ -78,7 +76,7 @@ static void check_line(const Example *example, const char *line, bool drawn)
     if (read_line(&options, &usage, line, FAILURE) != OPTIONS_RUN)
         fail_msg("%s %s: %s", example->name, line, FAILURE->text);
     const DrawRequest request = options_request(&options, example);
-    snprintf(what, sizeof what, "%s %s", example->name, line);
+    const char *what = formatted("%s %s", example->name, line);
     SUCCEEDS(renderer_open(&renderer, example, &canvas, &request, message));
     if (example_scene(example))
         check_scene(&renderer, &request, what);
@@ -100,12 +98,11 @@ static void check_line(const Example *example, const char *line, bool drawn)
 
 static void check_tries(const Example *const *examples, int count)
 {
-    for (int e = 0; e < count; e++) {
+    for (int e = 0; e < count; e++)
         for (int i = 0; i < 3 && examples[e]->tries[i]; i++) {
             check_line(examples[e], examples[e]->tries[i], true);
             assert_in_range(strlen(examples[e]->looks[i]), 10, 78);
         }
-    }
 }
 
 TEST(what_help_suggests_is_a_whole_picture)
@@ -123,11 +120,12 @@ TEST(every_shape_is_whole)
         while (own->name && strcmp(own->name, "shape") != 0)
             own++;
         for (int i = 0; own->name && own->choices[i]; i++) {
-            char line[64];
-            snprintf(line, sizeof line, "--shape %s%s", own->choices[i],
-                     EXAMPLES[e]->name[0] == 'T' && own->choices == SHAPE_NAMES ? " --costs off"
-                                                                                : "");
-            check_line(EXAMPLES[e], line, false);
+            check_line(EXAMPLES[e],
+                       formatted("--shape %s%s", own->choices[i],
+                                 EXAMPLES[e]->name[0] == 'T' && own->choices == SHAPE_NAMES
+                                     ? " --costs off"
+                                     : ""),
+                       false);
         }
     }
 }

@@ -60,8 +60,7 @@ TEST_WITH(0, keys_differ_by_bytes_lengths_and_order, testing_enter_cache, testin
 
 TEST_WITH(0, without_a_folder_nothing_is_kept, testing_enter_cache, testing_leave_cache)
 {
-    char path[4096];
-    snprintf(path, sizeof path, "%s/file", testing_folder);
+    const char *path = formatted("%s/file", testing_folder);
     close(open(path, O_CREAT | O_WRONLY, 0600));
     const char *const folders[] = {path, "relative", "/dev/null", "/nonexistent/folder"};
     unsetenv("HOME");

@@ -55,8 +55,7 @@ static int ask_for_too_much(void)
 
 FOLDER_TEST(lack_of_memory_ends_the_process_with_one_line)
 {
-    char expected[128];
-    snprintf(expected, sizeof expected, "%s: not enough memory\n", program_invocation_short_name);
+    const char *expected = formatted("%s: not enough memory\n", program_invocation_short_name);
     for (way = ADDRESS_SANITIZER ? 2 : 0; way < 3; way++) {
         size_t size;
         assert_int_equal(testing_in_child(ask_for_too_much), MEMORY_EXIT);

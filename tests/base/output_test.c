@@ -10,7 +10,6 @@
 #include <sched.h>
 #include <signal.h>
 #include <sys/mount.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -103,9 +102,9 @@ FOLDER_TEST(a_reader_of_the_old_file_keeps_it_whole)
 
 FOLDER_TEST(every_form_of_a_path_works)
 {
-    char absolute[128], longest[256];
+    char longest[256];
     assert_int_equal(mkdir("sub", 0777), 0);
-    snprintf(absolute, sizeof absolute, "%s/absolute.png", testing_folder);
+    const char *absolute = formatted("%s/absolute.png", testing_folder);
     memset(longest, 'n', 255); /* NAME_MAX */
     longest[255] = '\0';
     const char *const paths[] = {"a.png",        "./b.png", "sub/c.png",     "sub//d.png",
@@ -165,9 +164,7 @@ FOLDER_TEST(a_link_stays_and_what_it_points_to_is_replaced)
 
 FOLDER_TEST(a_link_to_a_file_that_is_not_there_makes_it)
 {
-    char target[128];
-    snprintf(target, sizeof target, "%s/made.png", testing_folder);
-    assert_int_equal(symlink(target, "dangling.png"), 0);
+    assert_int_equal(symlink(formatted("%s/made.png", testing_folder), "dangling.png"), 0);
     assert_int_equal(symlink("missing/a.png", "lost.png"), 0);
     written("dangling.png", "new");
     assert_true(S_ISLNK(mode_of("dangling.png")));
@@ -180,12 +177,10 @@ FOLDER_TEST(names_of_open_files_are_written_through)
 {
     static const char *const forms[] = {"/dev/fd/%d", "/proc/self/fd/%d"};
     for (size_t i = 0; i < 2; i++) {
-        char path[32];
         struct stat before, after;
         const int file = open("open.png", O_RDWR | O_CREAT | O_TRUNC, 0600);
         assert_int_equal(fstat(file, &before), 0);
-        snprintf(path, sizeof path, forms[i], file);
-        written(path, "through");
+        written(formatted(forms[i], file), "through");
         close(file);
         assert_int_equal(stat("open.png", &after), 0);
         assert_int_equal(before.st_ino, after.st_ino);
@@ -195,8 +190,7 @@ FOLDER_TEST(names_of_open_files_are_written_through)
 
 FOLDER_TEST(a_new_file_in_shared_memory_works)
 {
-    char path[64];
-    snprintf(path, sizeof path, "/dev/shm/output_test-%ld.png", (long)getpid());
+    const char *path = formatted("/dev/shm/output_test-%ld.png", (long)getpid());
     if (access("/dev/shm", W_OK) != 0)
         return;
     message = (Message){0};
@@ -237,9 +231,8 @@ FOLDER_TEST(pieces_are_a_file_when_they_are_committed)
 
 FOLDER_TEST(pieces_go_through_when_they_are_committed)
 {
-    char path[32];
     const int file = open("open.png", O_RDWR | O_CREAT | O_TRUNC, 0600);
-    snprintf(path, sizeof path, "/dev/fd/%d", file);
+    const char *path = formatted("/dev/fd/%d", file);
     for (int whole = 0; whole < 2; whole++) {
         Output *output = output_begin(path, &message);
         assert_non_null(output);

@@ -5,8 +5,6 @@
 #include "base/random.h"
 #include "support/testing.h"
 
-#include <math.h>
-
 TEST(a_quoted_source_line_is_known)
 {
     assert_true(text_is_quote("  3 | void main() { a | b; }\nmore"));

@@ -90,7 +90,7 @@ WATCH_TEST(every_way_of_saving_is_reported_once)
     };
     enum { COUNT = sizeof ways / sizeof ways[0] };
     Watch *watches[COUNT];
-    char path[32], command[512];
+    char path[32];
     for (int i = 0; i < COUNT; i++) {
         snprintf(path, sizeof path, "%d", i);
         assert_int_equal(mkdir(path, 0777), 0);
@@ -100,10 +100,8 @@ WATCH_TEST(every_way_of_saving_is_reported_once)
         watch_set(watches[i], &(const char *){path}, 1);
         assert_true(watch_wait(watches[i], PATIENCE));
     }
-    for (int i = 0; i < COUNT; i++) {
-        snprintf(command, sizeof command, "cd %d; %s", i, ways[i][1]);
-        testing_shell(command);
-    }
+    for (int i = 0; i < COUNT; i++)
+        testing_shell(formatted("cd %d; %s", i, ways[i][1]));
     for (int i = 0; i < COUNT; i++)
         if (!watch_wait(watches[i], PATIENCE))
             fail_msg("not reported: %s", ways[i][0]);
@@ -162,8 +160,7 @@ WATCH_TEST(a_missing_file_is_reported_when_it_is_made)
 
 WATCH_TEST(folders_made_one_by_one_are_followed)
 {
-    char path[128];
-    snprintf(path, sizeof path, "%s/one/two/a.vert", testing_folder);
+    const char *path = formatted("%s/one/two/a.vert", testing_folder);
     for (int absolute = 0; absolute < 2; absolute++) {
         watch_one(absolute ? path : "one/two/a.vert");
         testing_shell("mkdir one; mkdir one/two");
@@ -223,11 +220,9 @@ WATCH_TEST(links_and_their_targets_are_watched)
 
 WATCH_TEST(an_absolute_link_is_followed)
 {
-    char command[256];
-    snprintf(command, sizeof command,
-             "mkdir far; echo > far/a.vert; ln -s %s/far/a.vert a.vert; ln -s %s/./far//. door",
-             testing_folder, testing_folder);
-    testing_shell(command);
+    testing_shell(formatted(
+        "mkdir far; echo > far/a.vert; ln -s %s/far/a.vert a.vert; ln -s %s/./far//. door",
+        testing_folder, testing_folder));
     static const char *const paths[] = {"a.vert", "door/b.vert"};
     watch_paths(paths, 2);
     testing_shell("echo x > far/a.vert");

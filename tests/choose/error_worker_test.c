@@ -64,6 +64,8 @@ static bool is_drawn(int way, int example)
         return false;
     if (step > 1 && way > 0 && (teapot || (way + example) % step))
         return false;
+    if (teapot && testing_step(9) > 4) /* in the short form none */
+        return false;
     return WAYS[way].teapots || !teapot;
 }
 
@@ -97,7 +99,7 @@ static PictureError expect(const ErrorPicture *picture)
 
 FIXTURE(draw_all)
 {
-    for (int way = 0; way < WAY_COUNT; way++) {
+    for (int way = 0; way < WAY_COUNT; way++)
         for (int i = 0; i < EXAMPLE_COUNT; i++) {
             Options options = WAYS[way].options;
             Canvas canvas;
@@ -117,7 +119,6 @@ FIXTURE(draw_all)
             renderer_close(&renderer);
             canvas_close(&canvas);
         }
-    }
 }
 
 FIXTURE(forget_all)
@@ -192,7 +193,7 @@ static void assert_said_apart(const Case *of, const Options *options, const Erro
 TEST(the_worker_finds_the_error_that_is_computed_here)
 {
     ErrorWorker *worker = open_worker();
-    for (int way = 0; way < WAY_COUNT; way++) {
+    for (int way = 0; way < WAY_COUNT; way++)
         for (int i = 0; i < EXAMPLE_COUNT; i++) {
             const Case *of = &cases[way][i];
             if (!is_drawn(way, i))
@@ -216,13 +217,12 @@ TEST(the_worker_finds_the_error_that_is_computed_here)
                               result.error.interior.maximum, error_sum_rms(&result.error.all),
                               result.error.all.maximum, result.milliseconds);
         }
-    }
     error_worker_close(worker);
 }
 
 TEST(every_pixel_of_every_view_counts_once)
 {
-    for (int way = 0; way < WAY_COUNT; way++) {
+    for (int way = 0; way < WAY_COUNT; way++)
         for (int i = 0; i < EXAMPLE_COUNT; i++) {
             const Options *options = &WAYS[way].options;
             const long long pixels = cases[way][i].expected.all.pixels;
@@ -234,7 +234,6 @@ TEST(every_pixel_of_every_view_counts_once)
             const int views = EXAMPLES[i] == &PhongBlinn ? 2 : count;
             assert_int_equal(pixels, views * (options->width / columns) * (options->height / rows));
         }
-    }
 }
 
 /* A teapot, which takes long, in a scene of its own. */

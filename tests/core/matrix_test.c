@@ -14,7 +14,6 @@
 /* Unit roundoff u, the largest relative error of one operation: 1.1e-16. */
 #define UNIT (DBL_EPSILON / 2)
 
-static const double pi = 3.14159265358979323846;
 static const double infinity = (double)INFINITY, not_a_number = (double)NAN;
 static uint64_t seed = 20240607;
 static Random random_state;
@@ -131,16 +130,15 @@ static Mat4 random_matrix(void)
 static Mat4 random_orthogonal(int n)
 {
     Mat4 q = mat4_identity();
-    for (int i = 0; i < n; i++) {
+    for (int i = 0; i < n; i++)
         for (int j = 0; j < i; j++) {
-            double angle = between(-pi, pi), c = cos(angle), s = sin(angle);
+            double angle = between(-PI, PI), c = cos(angle), s = sin(angle);
             for (int k = 0; k < n; k++) {
                 double x = q.m[4 * k + i], y = q.m[4 * k + j];
                 q.m[4 * k + i] = c * x - s * y;
                 q.m[4 * k + j] = s * x + c * y;
             }
         }
-    }
     return q;
 }
 
@@ -271,7 +269,7 @@ TEST_WITH(0, what_is_not_finite_is_refused, start_random, NULL)
         {make_inverse, 16, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 2}, false, false},
         {make_normal, 16, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, true, false},
     };
-    for (size_t k = 0; k < sizeof makers / sizeof makers[0]; k++) {
+    for (size_t k = 0; k < sizeof makers / sizeof makers[0]; k++)
         for (int i = 0; i < 3 * makers[k].count; i++) {
             double v[16];
             memcpy(v, makers[k].good, sizeof v);
@@ -282,7 +280,6 @@ TEST_WITH(0, what_is_not_finite_is_refused, start_random, NULL)
             if (makers[k].count == 16)
                 assert_true(isnan(mat4_determinant(matrix_of(v))));
         }
-    }
     assert_refused(make_rotation, (const double[]){0, 0, 0, 30}, mat4_identity());
 }
 
@@ -447,9 +444,9 @@ TEST_WITH(0, rotation_has_the_given_angle, start_random, NULL)
     Mat4 r;
     for (int i = -720; i <= 720; i++) {
         assert_true(mat4_try_rotate(i * 0.5, (Vec3){0, 0, 1}, &r));
-        /* The reference's argument, up to 2 pi, has an error of 2 u. */
-        assert_near(r.m[0], cos(i * 0.5 * pi / 180), 16 * UNIT);
-        assert_near(r.m[1], sin(i * 0.5 * pi / 180), 16 * UNIT);
+        /* The reference's argument, up to 2 PI, has an error of 2 u. */
+        assert_near(r.m[0], cos(i * 0.5 * PI / 180), 16 * UNIT);
+        assert_near(r.m[1], sin(i * 0.5 * PI / 180), 16 * UNIT);
     }
     /* 1e22 is an integer, and 1e22 mod 360 = 280. */
     Mat4 expected;
@@ -581,7 +578,7 @@ TEST_WITH(0, look_at_from_the_center_itself_looks_along_minus_z, start_random, N
 TEST_WITH(0, look_at_takes_any_finite_size, start_random, NULL)
 {
     const double sizes[] = {5e-324, 1e-310, 1e-300, 1e-160, 1e160, 1e300, 0.99 * DBL_MAX};
-    for (int i = 0; i < 7; i++) {
+    for (int i = 0; i < 7; i++)
         for (int j = 0; j < 7; j++) {
             Vec3 eye = {sizes[i], 0, 0}, center = {-sizes[i], 0, 0}, up = {0, sizes[j], 0};
             const Mat4 expected = {{0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, -sizes[i], 1}};
@@ -597,7 +594,6 @@ TEST_WITH(0, look_at_takes_any_finite_size, start_random, NULL)
                     assert_rigid(view, eye);
             }
         }
-    }
     /* Partial sums of the translation overflow, the translation does not. */
     Vec3 eye = {DBL_MAX, DBL_MAX, -DBL_MAX}, center = {-DBL_MAX, -DBL_MAX, -DBL_MAX};
     Mat4 view;
@@ -632,9 +628,9 @@ TEST_WITH(0, perspective_has_its_closed_forms, start_random, NULL)
     assert_near(p.m[5], sqrt(3), 8 * UNIT);
     /* Close to 180 degrees the cotangent is the complement's radians: 2^-20 degrees is exact. */
     assert_true(mat4_try_perspective(180 - ldexp(1, -19), 1, 1, 3, &p));
-    assert_near(p.m[5] / tan(ldexp(pi, -20) / 180), 1, 4 * UNIT);
+    assert_near(p.m[5] / tan(ldexp(PI, -20) / 180), 1, 4 * UNIT);
     assert_true(mat4_try_perspective(1e-300, 1, 1, 3, &p));
-    assert_near(p.m[5] / (360 / pi / 1e-300), 1, 8 * UNIT);
+    assert_near(p.m[5] / (360 / PI / 1e-300), 1, 8 * UNIT);
 }
 
 TEST_WITH(0, perspective_without_a_far_plane_is_the_limit, start_random, NULL)
@@ -662,10 +658,10 @@ TEST_WITH(0, perspective_maps_near_and_far_to_minus_and_plus_one, start_random, 
         assert_near(depth_of(p, near), -1, 1e-14);
         assert_near(depth_of(p, far), 1, 1e-14);
         /* A tangent, its argument, a product and a quotient on either side. */
-        double y = near * tan(fovy * pi / 360), x = aspect * y;
+        double y = near * tan(fovy * PI / 360), x = aspect * y;
         if (y == 0 || x < 1e-300)
             continue;
-        double sloppy = 8 * UNIT / cos(fovy * pi / 360);
+        double sloppy = 8 * UNIT / cos(fovy * PI / 360);
         Vec3 corner = mat4_transform_point(p, (Vec3){x, y, -near});
         assert_near(corner.x, 1, sloppy + 16 * UNIT);
         assert_near(corner.y, 1, sloppy + 16 * UNIT);
@@ -1041,13 +1037,12 @@ static double normal_error(Mat4 a, const QuadMatrix *inverse)
     assert_normal_form(normal);
     QuadMatrix n = quad_from(normal), transposed;
     Quad sum = 0, inverse_sum = 0;
-    for (int j = 0; j < 3; j++) {
+    for (int j = 0; j < 3; j++)
         for (int k = 0; k < 3; k++) {
             transposed.a[j][k] = inverse->a[k][j];
             sum += (Quad)a.m[4 * j + k] * (Quad)a.m[4 * j + k];
             inverse_sum += inverse->a[k][j] * inverse->a[k][j];
         }
-    }
     const Vec3 any = random_vector(), rare = {a.m[0], a.m[4], a.m[8]};
     return fmax(quad_angle(&n, &transposed, any), quad_angle(&n, &transposed, rare)) /
            (sqrt((double)(sum * inverse_sum)) * UNIT);

@@ -9,8 +9,6 @@
 #include <float.h>
 #include <sys/resource.h>
 
-static const double PI = 3.14159265358979323846;
-
 /* The cube. */
 
 TEST(the_cube_has_the_corners_normals_and_split_of_the_lecture)
@@ -24,9 +22,8 @@ TEST(the_cube_has_the_corners_normals_and_split_of_the_lecture)
     static const double half_sides[] = {1, 2, 0.1, 1e-30, 1e30};
     for (size_t h = 0; h < sizeof half_sides / sizeof half_sides[0]; h++) {
         CLOSED(mesh_close) Mesh mesh;
-        Message message = {0};
         const float half = (float)half_sides[h];
-        assert_true(mesh_cube(&mesh, half_sides[h], &message));
+        SUCCEEDS(mesh_cube(&mesh, half_sides[h], message));
         assert_int_equal(mesh.vertex_count, 24);
         assert_int_equal(mesh.index_count, 36);
         for (uint32_t v = 0; v < 24; v++) {
@@ -69,7 +66,7 @@ TEST(a_sphere_has_the_documented_vertices)
         open_sphere(&mesh, t);
         assert_int_equal(mesh.vertex_count, row * ((size_t)t.stacks + 1));
         assert_int_equal(mesh.index_count, 6 * (size_t)t.slices * ((size_t)t.stacks - 1));
-        for (int j = 0; j <= t.stacks; j++) {
+        for (int j = 0; j <= t.stacks; j++)
             for (int i = 0; i <= t.slices; i++) {
                 const double a = 2 * PI * i / t.slices, b = PI * j / t.stacks;
                 const double expected[3] = {sin(a) * sin(b), cos(b), cos(a) * sin(b)};
@@ -82,7 +79,6 @@ TEST(a_sphere_has_the_documented_vertices)
                                 FLT_EPSILON * 3 / 4 + 1e-15);
                 }
             }
-        }
         topology_check_sound(&mesh);
     }
 }
@@ -153,7 +149,7 @@ TEST(the_lecture_sphere_has_the_numbers_of_the_lecture)
         assert_int_equal(mesh.vertex_count, (n + 1) * (n + 1));
         assert_int_equal(mesh.index_count, 6 * n * n);
         const MeshVertex *v = mesh.vertices;
-        for (int j = 0; j <= n; j++) {
+        for (int j = 0; j <= n; j++)
             for (int i = 0; i <= n; i++, v++) {
                 const double a = 2 * PI * i / n, b = PI * j / n;
                 const float expected[3] = {(float)(sin(a) * sin(b)), (float)cos(b),
@@ -162,15 +158,13 @@ TEST(the_lecture_sphere_has_the_numbers_of_the_lecture)
                     assert_true(v->position[axis] == expected[axis]);
                 assert_memory_equal(v->normal, v->position, sizeof v->normal);
             }
-        }
         const uint32_t *index = mesh.indices;
-        for (uint32_t j = 0; j < (uint32_t)n; j++) {
+        for (uint32_t j = 0; j < (uint32_t)n; j++)
             for (uint32_t i = 0; i < (uint32_t)n; i++, index += 6) {
                 const uint32_t p1 = j * ((uint32_t)n + 1) + i, p2 = p1 + (uint32_t)n + 1;
                 const uint32_t expected[6] = {p1, p2, p1 + 1, p1 + 1, p2, p2 + 1};
                 assert_memory_equal(index, expected, sizeof expected);
             }
-        }
     }
 }
 

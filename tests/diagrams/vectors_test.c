@@ -1,144 +1,9 @@
-/* The figures of Vectors: their numbers against closed forms, and that nothing in them overlaps or
+/* The figures of Vectors: what they draw against closed forms, and that nothing in them overlaps or
  * is cut. */
 #include "diagrams/figures.h"
+#include "diagrams/usual_optics.h"
 #include "images/path_box.h"
 #include "support/testing.h"
-
-/* Of sums and products of a few numbers near 1 in double precision. */
-#define ROUNDING 1e-12
-
-static const Vec3 UP = {0, 1, 0}, ORIGIN = {0, 0, 0};
-static const double PI = 3.14159265358979323846;
-
-static Optics usual(double light, double eye, double shininess, Reflection reflection)
-{
-    return (Optics){.light = light,
-                    .eye = eye,
-                    .shininess = shininess,
-                    .reflection = reflection,
-                    .material = material_find("jade"),
-                    .ambient = 0.2,
-                    .distance = 0.75,
-                    .constant = 1,
-                    .linear = 0.2,
-                    .quadratic = 0.2,
-                    .sides = 4};
-}
-
-static void assert_near(double a, double b)
-{
-    if (!(fabs(a - b) <= ROUNDING))
-        fail_msg("%.17g is not %.17g", a, b);
-}
-
-static double cosine(double degrees)
-{
-    return cos(degrees * PI / 180);
-}
-
-TEST(vectors_are_what_their_angles_say)
-{
-    for (int light = -180; light <= 180; light += 5) {
-        for (int eye = -90; eye <= 90; eye += 5) {
-            const Optics optics = usual(light, eye, 10, REFLECTION_PHONG);
-            const OpticsVectors at = optics_vectors(&optics, ORIGIN, UP);
-            assert_near(at.n_dot_l, cosine(light));
-            assert_near(at.r_dot_v, cosine(eye - light));
-            /* R mirrors L in N: the same along N, the opposite across. */
-            assert_near(at.r.x, -at.l.x);
-            assert_near(at.r.y, at.l.y);
-            assert_near(vec3_length(at.r), 1);
-            /* Where L and V are opposite, H is zero or, by rounding, any unit vector. */
-            const bool opposite = (eye + light + 540) % 360 == 0;
-            assert_near(vec3_length(at.h), opposite && vec3_length(at.h) < 0.5 ? 0 : 1);
-            if (abs(eye + light) < 175) /* halfway, on the side of both */
-                assert_near(at.n_dot_h, cosine((eye - light) / 2.0));
-        }
-    }
-}
-
-TEST(right_angles_are_exact)
-{
-    const Optics optics = usual(90, 0, 10, REFLECTION_PHONG);
-    const OpticsVectors at = optics_vectors(&optics, ORIGIN, UP);
-    assert_true(at.n_dot_l == 0 && at.l.x == -1 && at.r.x == 1 && at.highlight == 0);
-}
-
-TEST(a_lobe_is_a_power_of_a_cosine)
-{
-    static const double SHININESS[] = {0, 0.5, 1, 10, 128};
-    for (int i = 0; i < 5; i++) {
-        for (int eye = -90; eye <= 90; eye += 3) {
-            const Optics phong = usual(35, 0, SHININESS[i], REFLECTION_PHONG);
-            const Optics blinn = usual(35, 0, SHININESS[i], REFLECTION_BLINN_PHONG);
-            assert_near(optics_lobe(&phong, eye), pow(fmax(cosine(eye - 35), 0), SHININESS[i]));
-            assert_near(optics_lobe(&blinn, eye), pow(cosine((eye - 35) / 2.0), SHININESS[i]));
-        }
-    }
-}
-
-TEST(a_light_behind_has_no_lobe)
-{
-    const Optics optics = usual(100, 100, 0, REFLECTION_PHONG);
-    for (int eye = -90; eye <= 90; eye += 10)
-        assert_true(optics_lobe(&optics, eye) == 0);
-}
-
-TEST(at_the_half_angle_the_highlight_is_half)
-{
-    for (int reflection = 0; reflection < 2; reflection++) {
-        for (double shininess = 4; shininess <= 128; shininess *= 2) {
-            const Optics optics = usual(30, 0, shininess, (Reflection)reflection);
-            const double eye = 30 - optics_half_angle(&optics);
-            assert_near(optics_lobe(&optics, eye), 0.5);
-        }
-    }
-    const Optics flat = usual(30, 0, 0, REFLECTION_PHONG);
-    assert_true(optics_half_angle(&flat) == 180);
-}
-
-TEST(a_footprint_is_the_width_over_the_cosine)
-{
-    assert_true(optics_footprint(1) == 1 && optics_footprint(0.5) == 2);
-    assert_true(isinf(optics_footprint(0)) && isinf(optics_footprint(-0.5)));
-    for (int light = 0; light < 90; light++)
-        assert_near(optics_footprint(cosine(light)) * cosine(light), 1);
-}
-
-/* Emission + 0.2 ambient + diffuse N.L + specular (R.V or N.H)^s, clamped. */
-TEST(colours_are_the_lighting_equation)
-{
-    for (int reflection = 0; reflection < 2; reflection++) {
-        for (int light = -175; light <= 175; light += 10) {
-            const Optics optics = usual(light, 25, 20, (Reflection)reflection);
-            const Material *m = optics.material;
-            const double n_dot_l = cosine(light);
-            const double base = reflection == REFLECTION_PHONG
-                                    ? cosine(25 - light)
-                                    : cosine((25 - light) / 2.0) * (abs(25 + light) < 180 ? 1 : -1);
-            const double power = n_dot_l > 0 ? pow(fmax(base, 0), 20) : 0;
-            const double wanted = m->emission.x + 0.2 * m->ambient.x +
-                                  m->diffuse.x * fmax(n_dot_l, 0) + m->specular.x * power;
-            assert_near(optics_color(&optics, ORIGIN, UP).x, fmin(wanted, 1));
-        }
-    }
-}
-
-TEST(radiating_rays_come_from_the_lamp)
-{
-    Optics optics = usual(30, 40, 10, REFLECTION_PHONG);
-    optics.radiating = true;
-    const Vec3 lamp = optics_light_place(&optics);
-    assert_near(vec3_length(lamp), OPTICS_LIGHT_DISTANCE);
-    for (double x = -2; x <= 2; x += 0.5) {
-        const OpticsVectors at = optics_vectors(&optics, (Vec3){x, 0, 0}, UP);
-        assert_near(at.n_dot_l, lamp.y / hypot(lamp.x - x, lamp.y));
-    }
-    /* At the origin they are the parallel ones. */
-    const OpticsVectors near = optics_vectors(&optics, ORIGIN, UP);
-    assert_near(near.n_dot_l, cosine(30));
-    assert_near(near.r_dot_v, cosine(10));
-}
 
 /* Of numbers read from pixels: a drawing's coordinates are rounded nowhere. */
 #define PIXELS 1e-9
@@ -213,7 +78,6 @@ TEST(rays_of_a_far_lamp_are_essentially_parallel)
 {
     static const double DISTANCES[] = {0.5, 0.75, 2, 11740, 1e6};
     for (int i = 0; i < 5; i++) {
-        char text[FIGURE_TEXT];
         Optics optics = usual(0, 0, 10, REFLECTION_PHONG);
         optics.distance = DISTANCES[i];
         const double most = 2 * atan(0.5 / DISTANCES[i]) * 180 / PI; /* above the middle */
@@ -226,8 +90,7 @@ TEST(rays_of_a_far_lamp_are_essentially_parallel)
                     fmax(spread, fabs(remainder(angle_of(&lines, a) - angle_of(&lines, b), 360)));
         assert_angle(spread, most);
         assert_angle(angle_of(&lines, 0), 180); /* of the parallel ones */
-        snprintf(text, sizeof text, "turns by %.3g°", most);
-        assert_text(&lines, text);
+        assert_text(&lines, formatted("turns by %.3g°", most));
     }
 }
 
@@ -326,16 +189,15 @@ TEST(eye_coordinates_are_world_coordinates_turned)
 {
     for (int eye = -90; eye <= 90; eye += 15) {
         const Optics optics = usual(40, eye, 10, REFLECTION_PHONG);
-        char place[FIGURE_TEXT], x[NUMBER_SIZE], z[NUMBER_SIZE];
+        char x[NUMBER_SIZE], z[NUMBER_SIZE];
         CLOSED(lines_end) Lines lines = lines_of(FIGURE_SPACES, &optics, V_COLOR, 0.13);
         assert_int_equal(lines.count, 2);
         assert_angle(angle_of(&lines, 0) - angle_of(&lines, 1), -eye);
         find_lines(&lines, GREY, 0.06); /* where the eye looks: straight up in eye coordinates */
         assert_angle(angle_of(&lines, 0), -eye);
         assert_angle(angle_of(&lines, 1), 0);
-        snprintf(place, sizeof place, "(%s, 0, %s)", board_number(1.7 + 1.9 * cosine(90 - eye), x),
-                 board_number(-0.6 + 1.9 * cosine(eye), z));
-        assert_text(&lines, place);
+        assert_text(&lines, formatted("(%s, 0, %s)", board_number(1.7 + 1.9 * cosine(90 - eye), x),
+                                      board_number(-0.6 + 1.9 * cosine(eye), z)));
         assert_text(&lines, "(0, 0, 0)"); /* no rounding of it */
         assert_text(&lines, "looks along −$z$");
         assert_text(&lines, "normalize(-v_Position)");
@@ -458,14 +320,14 @@ static bool has_label(const Drawing *drawing, const char *letter)
 
 static void check_figure(Figure figure, const Optics *optics, double width, double height)
 {
-    char what[200];
     CLOSED(drawing_end) Drawing drawing;
     SUCCEEDS(drawing_begin(&drawing, width, height, message));
     figure_draw(figure, optics, &drawing);
-    snprintf(what, sizeof what, "%s %gx%g light %g eye %g shininess %g %s %s sides %d distance %g",
-             FIGURE_NAMES[figure], width, height, optics->light, optics->eye, optics->shininess,
-             REFLECTION_NAMES[optics->reflection], optics->radiating ? "radiating" : "parallel",
-             optics->sides, optics->distance);
+    const char *what =
+        formatted("%s %gx%g light %g eye %g shininess %g %s %s sides %d distance %g",
+                  FIGURE_NAMES[figure], width, height, optics->light, optics->eye,
+                  optics->shininess, REFLECTION_NAMES[optics->reflection],
+                  optics->radiating ? "radiating" : "parallel", optics->sides, optics->distance);
     const double em = fmin(drawing.width / 27, drawing.height / 21);
     for (int i = 0; i < drawing.label_count; i++)
         for (int j = 0; j < i; j++)
@@ -496,26 +358,20 @@ TEST(nothing_overlaps_and_nothing_is_cut)
     static const double SHININESS[] = {0, 33.333333, 128};
     static const double DISTANCES[] = {0.25, 0.75, 1.3, 11740, 1e6}, COEFFICIENTS[] = {0, 0.3, 10};
     const int step = testing_step(33);
-    int count = 0;
-    for (int size = 0; size < 8; size++)
-        for (int light = 0; light < 18; light++)
-            for (int eye = 0; eye < 6; eye++)
-                for (int shininess = 0; shininess < 3; shininess++)
-                    for (int figure = 0; figure < FIGURE_COUNT; figure++)
-                        for (int kind = 0; kind < 4; kind++) {
-                            Optics optics = usual(LIGHTS[light], EYES[eye], SHININESS[shininess],
-                                                  (Reflection)(kind & 1));
-                            optics.radiating = kind & 2;
-                            optics.sides = 1 + count % OPTICS_SIDES_MAX;
-                            optics.distance = DISTANCES[count % 5];
-                            optics.constant = COEFFICIENTS[count % 3];
-                            optics.linear = COEFFICIENTS[count / 3 % 3];
-                            optics.quadratic = COEFFICIENTS[count / 9 % 3];
-                            optics.material = &MATERIALS[count % MATERIAL_COUNT].material;
-                            if (count++ % step == 0)
-                                check_figure((Figure)figure, &optics, SIZES[size][0],
-                                             SIZES[size][1]);
-                        }
+    for (int i = 0; i < 8 * 18 * 6 * 3 * FIGURE_COUNT * 4; i += step) {
+        const double *size = SIZES[i / 4 / FIGURE_COUNT / 3 / 6 / 18];
+        Optics optics =
+            usual(LIGHTS[i / 4 / FIGURE_COUNT / 3 / 6 % 18], EYES[i / 4 / FIGURE_COUNT / 3 % 6],
+                  SHININESS[i / 4 / FIGURE_COUNT % 3], (Reflection)(i & 1));
+        optics.radiating = i & 2;
+        optics.sides = 1 + i % OPTICS_SIDES_MAX;
+        optics.distance = DISTANCES[i % 5];
+        optics.constant = COEFFICIENTS[i % 3];
+        optics.linear = COEFFICIENTS[i / 3 % 3];
+        optics.quadratic = COEFFICIENTS[i / 9 % 3];
+        optics.material = &MATERIALS[i % MATERIAL_COUNT].material;
+        check_figure((Figure)(i / 4 % FIGURE_COUNT), &optics, size[0], size[1]);
+    }
 }
 
 /* The semicircle of the unit vectors is in the middle of a picture with room on both sides. */

@@ -31,15 +31,15 @@ static void put_number(Text *to, int depth);
 static void put_vector(Text *to, int depth)
 {
     static const char *const forms[] = {"normalize(", "abs(", "-(", "2.0 * ("};
-    const int form = random_below(to->random, 8);
+    const int form = random_below(to->random, 9);
     if (depth <= 0 || form == 0) {
         put(to, random_below(to->random, 2) ? "a" : "b");
     } else if (form <= 4) {
         put(to, "%s", forms[form - 1]);
         put_vector(to, depth - 1);
         put(to, ")");
-    } else if (form == 5) {
-        put(to, "reflect(a, normalize(");
+    } else if (form == 5 || form == 6) {
+        put(to, form == 5 ? "reflect(a, normalize(" : "mirrored(a, (");
         put_vector(to, depth - 1);
         put(to, "))");
     } else {
@@ -111,7 +111,9 @@ static void put_shader(Text *to, bool narrow)
     const int lines = 1 + random_below(to->random, 4);
     put(to, "precision %s float;\nuniform vec3 a, b;\n", narrow ? "mediump" : "highp");
     put(to, "float power(float base, float exponent) {\n    return base > 0.0 ? pow(base, exponent)"
-            " : 0.0;\n}\nvoid main() {\n");
+            " : 0.0;\n}\nvec3 mirrored(vec3 l, vec3 v) {\n"
+            "    vec3 n = v * inversesqrt(max(dot(v, v), .01));\n"
+            "    return 2. * dot(n, l) * n - l;\n}\nvoid main() {\n");
     for (int i = 0; i < lines; i++) {
         const int kind = random_below(to->random, 4);
         put(to, "    float r%d = ", i);
@@ -269,10 +271,9 @@ static GlslBound bound_of(const char *statements, double x, const double pixel[2
                           bool *edges)
 {
     const GlslErrors errors = rounded_errors();
-    char text[TEXT];
-    snprintf(text, sizeof text, "precision highp float; uniform vec3 a;\nvoid main() {\n%s\n}",
-             statements);
-    Shader shader = shader_open(text, &errors);
+    Shader shader = shader_open(
+        formatted("precision highp float; uniform vec3 a;\nvoid main() {\n%s\n}", statements),
+        &errors);
     GlslInput *input = &shader.bounds->inputs[shader.inputs[0].first];
     *input = (GlslInput){.middle = x, .error = 1e-3, .slope = {{1, 1}, {0, 0}}};
     memcpy(shader.bounds->pixel, pixel, sizeof shader.bounds->pixel);
@@ -300,6 +301,9 @@ TEST(errors_depend_on_each_other)
     assert_true(bound_of(step, .7005, none, &line, &edges).error == .25 && !edges);
     assert_true(bound_of(step, .7005, pixel, &line, &edges).error == 0 && edges);
     assert_true(bound_of(step, .702, none, &line, &edges).error == 0 && !edges);
+    /* There it has 0 + .7005 instead of -.6995 + .6995. */
+    const char *const other = "gl_FragColor = vec4((a.x > .7 ? 0. : -a.x) + a.x);";
+    assert_true(bound_of(other, .6995, none, &line, &edges).error >= .7004);
     /* What has no bound, and the line. */
     bound_of("gl_FragColor = vec4(1.);\nif (a.x > .7) discard;", .7, none, &line, &edges);
     assert_int_equal(line, 4);
@@ -309,6 +313,40 @@ TEST(errors_depend_on_each_other)
                                     "gl_FragColor = vec4(s);",
                                     .0005, none, &line, &edges);
     assert_true(line == 0 && isinf(root.error));
+    const char *const no_number = "gl_FragColor = vec4(1. / (.3 + abs(cos(inversesqrt(a.x)))));";
+    assert_true(isinf(bound_of(no_number, .0005, none, &line, &edges).error));
+}
+
+/* Of vectors whose numbers are known to a half, and lengths by how they are computed. */
+TEST(a_dot_product_is_at_most_the_lengths)
+{
+    static const struct {
+        const char *dot;
+        double most;
+    } CASES[] = {{"dot(n, l)", 1},
+                 {"dot(-n, 3. * l)", 3},
+                 {"dot(reflect(l, n), n)", 1},
+                 {"dot(2. * dot(l, n) * n - l, n)", 1}};
+    const GlslErrors errors = rounded_errors();
+    for (size_t i = 0; i < sizeof CASES / sizeof *CASES; i++) {
+        char text[TEXT];
+        snprintf(text, sizeof text,
+                 "precision highp float; uniform vec3 a, b;\nvoid main() {\n"
+                 "vec3 n = normalize(a), l = b * inversesqrt(max(dot(b, b), 1e-9));\n"
+                 "gl_FragColor = vec4(%s);\n}",
+                 CASES[i].dot);
+        Shader shader = shader_open(text, &errors);
+        shader.bounds->radius[0] = .5;
+        for (int k = 0; k < 3; k++)
+            for (int v = 0; v < 2; v++)
+                shader.bounds->inputs[shader.inputs[v].first + k] =
+                    (GlslInput){.middle = 1, .slope = {{1, 1}, {0, 0}}};
+        assert_true(glsl_bound_run(shader.bounds));
+        const GlslBound bound = glsl_bound(shader.bounds, shader.color.first);
+        if (!(bound.exact.high <= CASES[i].most + 1e-9 && bound.exact.low >= -CASES[i].most - 1e-9))
+            fail_msg("%s: %g to %g", CASES[i].dot, bound.exact.low, bound.exact.high);
+        shader_close(&shader);
+    }
 }
 
 TEST_MAIN("glsl_bound", NULL, NULL)

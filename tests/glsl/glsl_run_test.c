@@ -51,10 +51,8 @@ static double *registers(const Shader *shader, const char *name)
 /* gl_FragColor.r after statements, with x = .3, y = 1.7, z = -.6, i = 2. */
 static Shader ran(const char *statements)
 {
-    char text[4096];
-    snprintf(text, sizeof text, HEAD "void main() { float r = 0.0;\n%s\ngl_FragColor = vec4(r); }",
-             statements);
-    Shader shader = shader_open(text);
+    Shader shader = shader_open(
+        formatted(HEAD "void main() { float r = 0.0;\n%s\ngl_FragColor = vec4(r); }", statements));
     *registers(&shader, "x") = .3;
     *registers(&shader, "y") = 1.7;
     *registers(&shader, "z") = -.6;

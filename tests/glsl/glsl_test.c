@@ -2,7 +2,6 @@
  * glsl: messages, constants, places, printing, what linking asks, and texts that are too much. What
  * is accepted is compared with other compilers in judges_test.py.
  */
-#include "base/clock.h"
 #include "glsl/glsl.h"
 #include "support/testing.h"
 
@@ -75,7 +74,7 @@ TEST(messages_know_types)
         "max(): there are no arguments; there is max(float or vec, the same), max(float or vec, float)");
     body_says("float3 n = v;", "GLSL ES 1.00 has no float3: write vec3");
     body_says("vce3 n = v;", "vce3 is no type: did you mean vec3?");
-    body_says("double d = x;", "double belongs to C or a later GLSL: write float");
+    body_says("double d = x;", "double has no meaning here in GLSL ES 1.00; write float");
     body_says("w = texture(map, v.xy);",
               "GLSL ES 1.00 has no texture here: write texture2D(sampler, point)");
     body_says("const float c = x;", "c is const: its value must be a constant expression");
@@ -85,8 +84,9 @@ TEST(messages_name_the_line)
 {
     says("float f;", 1,
          "floats have no default precision here: add `precision highp float;` at the top");
-    says(FRAGMENT "in vec3 v;", 2, "in belongs to C or a later GLSL: write varying");
-    says(FRAGMENT "out vec4 color;", 2, "out belongs to C or a later GLSL: set gl_FragColor");
+    says(FRAGMENT "in vec3 v;", 2, "in has no meaning here in GLSL ES 1.00; write varying");
+    says(FRAGMENT "out vec4 color;", 2,
+         "out has no meaning here in GLSL ES 1.00; set gl_FragColor");
     says(FRAGMENT "unifrom vec3 v;", 2, "unifrom is no type: did you mean uniform?");
     says(FRAGMENT "layout(location = 0) varying vec3 v;", 2,
          "GLSL ES 1.00 has no layout: remove it and its parentheses");
@@ -246,7 +246,8 @@ TEST(what_linking_and_appendix_a_ask_is_asked_apart)
                "an index here must be constant or count a loop (GLSL ES 1.00, appendix A)");
 }
 
-/* `before`, `count` times `part`, and `after`: one message at most, at once. */
+/* `before`, `count` times `part`, and `after`: one message at most, and at once: what is not
+ * stopped by a count takes longer than this test may, and grows beyond memory. */
 static void endures(const char *before, const char *part, int count, const char *after, bool good)
 {
     const size_t size = strlen(before) + strlen(part) * (size_t)count + strlen(after) + 1;
@@ -254,15 +255,10 @@ static void endures(const char *before, const char *part, int count, const char 
     for (int i = 0; i < count; i++, end += strlen(part))
         memcpy(end, part, strlen(part));
     strcpy(end, after);
-    const double start = clock_now();
     GlslTree *tree = glsl_parse(text, GLSL_VERTEX, NULL);
-    const double seconds = clock_now() - start;
     if (tree->message_count != !good)
         fail_msg("%s %s...: %d messages: %s", before, part, tree->message_count,
                  tree->messages[0].text);
-    if (seconds >
-        5) /* "at once" takes 0.2 s at most here; sanitizers and busy machines are slower */
-        fail_msg("%s %s...: %.1f s", before, part, seconds);
     glsl_tree_free(tree);
     free(text);
 }

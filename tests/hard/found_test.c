@@ -218,7 +218,7 @@ static double largest_error(const Reference *exact, const float *slack)
 {
     const float *real = hard.real.pixels;
     double max = -1;
-    for (size_t i = 0; i < (size_t)exact->width * (size_t)exact->height; i++) {
+    for (size_t i = 0; i < (size_t)exact->width * (size_t)exact->height; i++)
         for (size_t c = 0; c < 3; c++) {
             const double value = (double)real[4 * i + c];
             if (!isfinite(value))
@@ -228,7 +228,6 @@ static double largest_error(const Reference *exact, const float *slack)
                            255 * (fabs(fmax(0, fmin(1, value)) - (double)exact->color[3 * i + c]) -
                                   2 * (double)slack[3 * i + c]));
         }
-    }
     return max;
 }
 

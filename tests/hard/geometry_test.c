@@ -68,10 +68,9 @@ static void set_vertex(MeshVertex *vertex, Vec3 position)
 TEST_WITH(0, corners_may_be_anywhere, NULL, forget_made)
 {
     static const double depths[] = {-50, -1, 0, 0.5, 0.5000001, 20, 21, 200, 2000};
-    for (size_t i = 0; i < sizeof depths / sizeof depths[0]; i++) {
+    for (size_t i = 0; i < sizeof depths / sizeof depths[0]; i++)
         for (size_t k = 0; k < 2; k++) {
             static const uint32_t indices[3] = {0, 1, 2};
-            char name[64];
             assert_true(mesh_open(&made[0], 3, 3, NULL));
             memcpy(made[0].indices, indices, sizeof indices);
             set_vertex(&made[0].vertices[0], (Vec3){-2, -0.5, 1});
@@ -80,11 +79,9 @@ TEST_WITH(0, corners_may_be_anywhere, NULL, forget_made)
             hard_world(&world, &made[0]);
             world.objects[0].two_sided = k;
             world.lights[0].position = (Vec3){0.5, 1.5, 1};
-            snprintf(name, sizeof name, "corner at depth %g, %zu", depths[i], k);
-            check(name, FAR_OFF, SIZE);
+            check(formatted("corner at depth %g, %zu", depths[i], k), FAR_OFF, SIZE);
             forget_made(NULL);
         }
-    }
     hard_report("corners behind the eye, on the planes and beyond");
 }
 

@@ -84,16 +84,14 @@ HardResult hard_draw(const Scene *scene, HardPrecision precision, const Referenc
     picture_draw(&hard.floats, hard.lightings[precision], &frame, &hard.real);
     for (size_t i = 0; i < 4 * count; i++)
         result.not_finite += !isfinite(value_of(&hard.real, i));
-    ErrorSum bytes = {0}, floats = {0};
+    ErrorSum bytes = {0};
     for (size_t i = 0; i < count; i++) {
         if (!right->interior[i]) /* only the insides of objects are compared */
             continue;
         error_sum_add(&bytes, pixel_error(&hard.image, i, &right->color[3 * i]), i);
-        error_sum_add(&floats, pixel_error(&hard.real, i, &right->color[3 * i]), i);
     }
     result.interior_pixels = (int)bytes.pixels;
     result.byte_error = bytes.maximum;
-    result.float_error = floats.maximum;
     result.x = (int)(bytes.worst % (size_t)hard.image.width);
     result.y = (int)(bytes.worst / (size_t)hard.image.width);
     reference_close(&own);

@@ -44,8 +44,8 @@ void hard_resize(int width, int height);
 
 /* The errors of a scene's pictures, in steps of 1/255. */
 typedef struct HardResult {
-    double byte_error, float_error; /* largest inside objects; floats are clamped to 0..1 */
-    int x, y;                       /* its place in the byte picture */
+    double byte_error; /* the largest inside objects */
+    int x, y;          /* its place in the byte picture */
     int interior_pixels;
     long long not_finite; /* values of the float picture that are infinite or NaN */
 } HardResult;

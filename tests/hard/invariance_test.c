@@ -176,7 +176,7 @@ static double largest_difference(const Image *a, const Image *b, const Reference
 {
     const float *values = a->pixels, *others = b->pixels;
     double max = 0;
-    for (int y = 0; y < SIZE; y++) {
+    for (int y = 0; y < SIZE; y++)
         for (int x = 0; x < SIZE; x++) {
             const size_t here = (size_t)(y * SIZE + x);
             const size_t there = (size_t)(y * b->width + left + (mirrored ? SIZE - 1 - x : x));
@@ -190,7 +190,6 @@ static double largest_difference(const Image *a, const Image *b, const Reference
                 max = isfinite(one) && isfinite(two) ? fmax(max, 255 * apart) : INFINITY;
             }
         }
-    }
     return max;
 }
 

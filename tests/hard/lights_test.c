@@ -39,7 +39,7 @@ static int draw_after(HardPrecision precision, int levels)
 TEST(a_point_light_far_away_is_a_directional_one)
 {
     static const Vec3 way = {0.4, 0.5, 0.8};
-    for (int interpolation = 0; interpolation < 2; interpolation++) {
+    for (int interpolation = 0; interpolation < 2; interpolation++)
         for (int exponent = 8; exponent <= 14; exponent += 3) {
             hard_world(&world, &hard.sphere);
             world.scene.interpolation = (Interpolation)interpolation;
@@ -51,7 +51,6 @@ TEST(a_point_light_far_away_is_a_directional_one)
             assert_int_equal(draw_after(HARD_HIGHP, 1), 0);
             hard_check("far light", &world.scene, HARD_HIGHP, 1, SIZE * SIZE / 8);
         }
-    }
     hard_report("point lights at 1e8 to 1e14");
 }
 
@@ -93,17 +92,14 @@ TEST(a_light_may_touch_the_object_or_be_inside)
     };
     CLOSED(mesh_close) Mesh fine_quad;
     SUCCEEDS(solid_mesh(&(Solid){.kind = SOLID_QUAD}, 16, &fine_quad, message));
-    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
+    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++)
         for (int fades = 0; fades < 2; fades++) {
-            char name[64];
             hard_world(&world, places[i].on_sphere ? &hard.sphere : &fine_quad);
             world.lights[0].position = places[i].position;
             world.lights[0].constant = fades ? 1 : 0;
             world.lights[0].quadratic = fades ? 0.5 : 0;
-            snprintf(name, sizeof name, "light on the object, %zu", i);
-            check(name, NEXT_TO_IT);
+            check(formatted("light on the object, %zu", i), NEXT_TO_IT);
         }
-    }
     hard_forget(&fine_quad);
     hard_report("lights on and within the object");
 }
@@ -136,23 +132,21 @@ TEST(attenuation_of_any_size_is_finite)
         {0.5, 0.2, 0.1}, {0, 0, 1},       {1e30, 0, 0},    {0, 1e30, 0},  {0, 0, 1e30},
         {1, 1e30, 1e30}, {1e-30, 1, 0.1}, {1e30, 1e30, 1}, {0, 1e-3, 0},  {1e4, 1e4, 1e4},
     };
-    for (size_t i = 0; i < sizeof factors / sizeof factors[0]; i++) {
+    for (size_t i = 0; i < sizeof factors / sizeof factors[0]; i++)
         for (int touches = 0; touches < 2; touches++) {
-            char name[64];
             hard_world(&world, touches ? &hard.quad : &hard.sphere);
             world.lights[0].constant = factors[i].x;
             world.lights[0].linear = factors[i].y;
             world.lights[0].quadratic = factors[i].z;
             if (touches)
                 world.lights[0].position = (Vec3){0, 0, 0};
-            snprintf(name, sizeof name, "attenuation %zu%s", i, touches ? ", touching" : "");
+            const char *name = formatted("attenuation %zu%s", i, touches ? ", touching" : "");
             check_at_fragments_and_vertices(name, HARD_HIGHP);
             if (fit_for_mediump(factors[i], touches ? 0 : 2))
                 check_at_fragments_and_vertices(name, HARD_MEDIUMP);
             else
                 hard_draw_finite(&world.scene, HARD_MEDIUMP);
         }
-    }
     hard_report("attenuation of 1e-30 to 1e30");
 }
 
@@ -199,7 +193,7 @@ TEST(a_cone_has_its_exact_edge)
     static const double MEDIUMP = (4 + 3.5 + 3) * 0x1p-11;
     double worst[2] = {0, 0};
     int compared = 0;
-    for (size_t i = 0; i < sizeof cutoffs / sizeof cutoffs[0]; i++) {
+    for (size_t i = 0; i < sizeof cutoffs / sizeof cutoffs[0]; i++)
         for (size_t k = 0; k < sizeof exponents / sizeof exponents[0]; k++) {
             hard_world(&world, &hard.quad);
             world.lights[0].kind = LIGHT_SPOT;
@@ -220,7 +214,6 @@ TEST(a_cone_has_its_exact_edge)
                              exponents[k], precision, error, max);
             }
         }
-    }
     assert_true(compared > SIZE * SIZE * 30);
     printf("cones: %d pixels, largest error %.2f in highp, %.2f in mediump\n", compared, worst[0],
            worst[1]);
@@ -229,7 +222,7 @@ TEST(a_cone_has_its_exact_edge)
 TEST(the_length_of_a_direction_does_not_matter)
 {
     static const double lengths[] = {1e-307, 1e-300, 1e-160, 1e-20, 1e20, 1e160, 1e300, 1e307};
-    for (int kind = 0; kind < 2; kind++) {
+    for (int kind = 0; kind < 2; kind++)
         for (HardPrecision precision = HARD_HIGHP; precision <= HARD_MEDIUMP; precision++) {
             hard_world(&world, &hard.sphere);
             world.lights[0].kind = kind ? LIGHT_SPOT : LIGHT_DIRECTIONAL;
@@ -242,7 +235,6 @@ TEST(the_length_of_a_direction_does_not_matter)
                 assert_int_equal(draw_after(precision, precision == HARD_HIGHP), 0);
             }
         }
-    }
 }
 
 /* In mediump no number is above 65504: at the fragments the light is limited to less, and colours
@@ -250,14 +242,13 @@ TEST(the_length_of_a_direction_does_not_matter)
 TEST(intensities_of_any_size_are_finite)
 {
     static const double intensities[] = {0, 1e-30, 1e-3, 1, 100, 1e4, 1e5, 1e6};
-    for (size_t i = 0; i < sizeof intensities / sizeof intensities[0]; i++) {
+    for (size_t i = 0; i < sizeof intensities / sizeof intensities[0]; i++)
         for (int interpolation = 0; interpolation < 2; interpolation++) {
             const double much = intensities[i];
-            char name[64];
             hard_world(&world, &hard.sphere);
             world.scene.interpolation = (Interpolation)interpolation;
             world.lights[0].diffuse = world.lights[0].specular = (Vec3){much, much, much};
-            snprintf(name, sizeof name, "intensity %g", much);
+            const char *name = formatted("intensity %g", much);
             hard_check(name, &world.scene, HARD_HIGHP, 1, SIZE * SIZE / 8);
             if (much < 65504)
                 hard_check(name, &world.scene, HARD_MEDIUMP,
@@ -267,7 +258,6 @@ TEST(intensities_of_any_size_are_finite)
             else
                 hard_draw_finite(&world.scene, HARD_MEDIUMP);
         }
-    }
     hard_report("intensities of 0 to 1e6");
 }
 

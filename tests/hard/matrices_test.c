@@ -170,12 +170,11 @@ DRAWN_TEST(singular_model_is_drawn_flat)
 {
     static const Mesh *const meshes[] = {&sphere, &cube, &quad};
     static const char *const names[] = {"sphere", "cube", "square"};
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++) {
             HardWorld world, shown;
             Mesh front;
-            char name[64];
-            snprintf(name, sizeof name, "%s of a %s", FLAT[i].name, names[k]);
+            const char *name = formatted("%s of a %s", FLAT[i].name, names[k]);
             make_flat(&world, meshes[k], i);
             if (!world.objects[0].closed) {
                 each_way(name, &world, check_steady);
@@ -197,7 +196,6 @@ DRAWN_TEST(singular_model_is_drawn_flat)
             }
             mesh_close(&front);
         }
-    }
 }
 
 /* Rank 1 or 0. */
@@ -309,11 +307,10 @@ DRAWN_TEST(tiny_or_huge_scale_draws_the_same_picture)
         world.scene.interpolation = way ? INTERPOLATION_GOURAUD : INTERPOLATION_PHONG;
         hard_exact(&world.scene, &exact);
         for (int i = 0; i < 8; i++) {
-            char name[64];
             make_scaled(&world, UNITS[i]);
             world.scene.interpolation = way ? INTERPOLATION_GOURAUD : INTERPOLATION_PHONG;
-            snprintf(name, sizeof name, "units of %g, lit at %s", UNITS[i],
-                     way ? "vertices" : "fragments");
+            const char *name =
+                formatted("units of %g, lit at %s", UNITS[i], way ? "vertices" : "fragments");
             check_exact(name, &world, HARD_HIGHP, &exact);
             if (way)
                 check_exact(name, &world, HARD_MEDIUMP, &exact);
@@ -359,14 +356,13 @@ DRAWN_TEST(tiny_or_huge_scale_beyond_floats_is_finite)
 {
     static const double sizes[] = {1e-300, 1e-150, 1e-40, 1e20, 1e37, 1e40, 1e150, 1e300};
     HardWorld world;
-    for (int i = 0; i < 8; i++) {
+    for (int i = 0; i < 8; i++)
         for (int k = 0; k < 4; k++) {
             const double s = sizes[i];
             make_world(&world, k % 2 ? &cube : &sphere, scale(s, k < 2 ? s : 1, -s));
             for (HardPrecision p = HARD_HIGHP; p <= HARD_MEDIUMP; p++)
                 hard_draw_finite(&world.scene, p);
         }
-    }
 }
 
 FIXTURE(open_all)

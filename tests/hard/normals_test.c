@@ -60,7 +60,7 @@ TEST_WITH(0, a_zero_normal_gives_exactly_ambient_light, NULL, forget_made)
     world.objects[0].front.ambient = (Vec3){1, 1, 1};
     world.objects[0].front.emission = (Vec3){0, 0, 0.75};
     check("zero normals", SIZE * SIZE / 4);
-    for (HardPrecision precision = HARD_HIGHP; precision <= HARD_MEDIUMP; precision++) {
+    for (HardPrecision precision = HARD_HIGHP; precision <= HARD_MEDIUMP; precision++)
         for (int way = 0; way < 3; way++) {
             world.scene.interpolation = way == 1 ? INTERPOLATION_GOURAUD : INTERPOLATION_PHONG;
             world.objects[0].world_from_object =
@@ -72,7 +72,6 @@ TEST_WITH(0, a_zero_normal_gives_exactly_ambient_light, NULL, forget_made)
             assert_int_equal(middle[1], 128); /* 127.5 is rounded to even */
             assert_int_equal(middle[2], 191); /* 191.25 */
         }
-    }
     hard_report("normals of no length");
 }
 
@@ -105,7 +104,6 @@ TEST_WITH(0, a_transform_may_stretch_by_any_factor, NULL, forget_made)
 {
     for (int exponent = -14; exponent <= 14; exponent += 4) {
         const double factor = pow(10, exponent);
-        char name[64];
         make_copy(&hard.sphere);
         for (size_t i = 0; i < made.vertex_count; i++) {
             MeshVertex *vertex = &made.vertices[i];
@@ -116,8 +114,7 @@ TEST_WITH(0, a_transform_may_stretch_by_any_factor, NULL, forget_made)
             vertex->position[0] = (float)((double)vertex->position[0] / factor);
         }
         world.objects[0].world_from_object = mat4_scale((Vec3){factor, 1, 1});
-        snprintf(name, sizeof name, "transform that stretches by 1e%d", exponent);
-        check(name, SIZE * SIZE / 8);
+        check(formatted("transform that stretches by 1e%d", exponent), SIZE * SIZE / 8);
     }
     hard_report("transforms that stretch by 1e-14 to 1e14");
 }

@@ -47,12 +47,11 @@ TEST(a_shininess_of_0_is_a_highlight_on_all_lit_points)
             /* Oblique, so that R.V is negative over a part of the quad. */
             world.lights[0].position = (Vec3){-3, 0, 0.05};
             hard_draw_finite(&world.scene, precision);
-            for (int x = SIZE / 4; x < SIZE; x += SIZE / 4) {
+            for (int x = SIZE / 4; x < SIZE; x += SIZE / 4)
                 for (int c = 0; c < 3; c++)
                     if (pixel(x, SIZE / 2)[c] != expected[c])
                         fail_msg("way %d, precision %d, column %d: %d for %d", way, precision, x,
                                  pixel(x, SIZE / 2)[c], expected[c]);
-            }
             world.lights[0].position = (Vec3){-3, 0, -0.05};
             hard_draw_finite(&world.scene, precision);
             for (int x = SIZE / 4; x < SIZE; x += SIZE / 4)
@@ -73,18 +72,16 @@ TEST(negative_cosines_make_no_highlight)
     static const Vec3 lights[] = {{1.5, 2, 3.5}, {-4, 1, 0.5}, {0.5, 3, -2}};
     CLOSED(mesh_close) Mesh cube;
     SUCCEEDS(mesh_cube(&cube, 0.8, message));
-    for (size_t i = 0; i < sizeof odd / sizeof odd[0]; i++) {
+    for (size_t i = 0; i < sizeof odd / sizeof odd[0]; i++)
         for (size_t k = 0; k < sizeof lights / sizeof lights[0]; k++) {
             hard_world(&world, k == 1 ? &cube : &hard.sphere);
             world.lights[0].position = lights[k];
             world.objects[0].front.shininess = odd[i];
             /* Light and viewer are far apart: the highlight is still visible where the surface
              * turns dark, and there signs may differ in mediump. */
-            char name[64];
-            snprintf(name, sizeof name, "negative cosines, shininess %g, light %zu", odd[i], k);
-            check(name, k ? NO_REACH : REACH);
+            check(formatted("negative cosines, shininess %g, light %zu", odd[i], k),
+                  k ? NO_REACH : REACH);
         }
-    }
     hard_forget(&cube);
     hard_report("negative cosines");
 }
@@ -135,7 +132,7 @@ TEST(unlit_points_have_no_highlight)
 TEST(the_eye_may_be_within_the_object_and_on_it)
 {
     static const Vec3 eyes[] = {{0, 0, 0}, {0.3, 0.2, 0.1}, {0, 0, 1}, {0, 0.6, 0.8}};
-    for (size_t i = 0; i < sizeof eyes / sizeof eyes[0]; i++) {
+    for (size_t i = 0; i < sizeof eyes / sizeof eyes[0]; i++)
         for (int two_sided = 0; two_sided < 2; two_sided++) {
             hard_world(&world, &hard.sphere);
             world.objects[0].two_sided = two_sided;
@@ -146,7 +143,6 @@ TEST(the_eye_may_be_within_the_object_and_on_it)
             world.scene.camera.near = 0.01;
             check("eye within", NO_REACH);
         }
-    }
     hard_report("eye on and within the object");
 }
 
@@ -193,7 +189,7 @@ TEST(over_exposure_is_clamped_once)
  * rounded to 11 bits has an error of at most 2^-12. */
 TEST(every_byte_is_reproduced)
 {
-    for (HardPrecision precision = HARD_HIGHP; precision <= HARD_MEDIUMP; precision++) {
+    for (HardPrecision precision = HARD_HIGHP; precision <= HARD_MEDIUMP; precision++)
         for (int k = 0; k < 256; k += testing_step(15)) {
             hard_world(&world, &hard.quad);
             world.scene.light_count = 0;
@@ -206,14 +202,13 @@ TEST(every_byte_is_reproduced)
             assert_int_equal(pixel(SIZE / 2, SIZE / 2)[1], 255 - k);
             assert_int_equal(pixel(SIZE / 2, SIZE / 2)[2], k ^ 85);
         }
-    }
     hard_report("emission of k / 255");
 }
 
 TEST(alpha_is_kept_and_colours_are_not_premultiplied)
 {
     static const double alphas[] = {0, 1e-30, 0.25, 1};
-    for (size_t i = 0; i < sizeof alphas / sizeof alphas[0]; i++) {
+    for (size_t i = 0; i < sizeof alphas / sizeof alphas[0]; i++)
         for (HardPrecision precision = HARD_HIGHP; precision <= HARD_MEDIUMP; precision++) {
             hard_world(&world, &hard.sphere);
             world.objects[0].front.alpha = alphas[i];
@@ -221,7 +216,6 @@ TEST(alpha_is_kept_and_colours_are_not_premultiplied)
                        precision ? oracle_mediump_max(&world.scene, REACH) : 1, SIZE * SIZE / 8);
             assert_int_equal(pixel(SIZE / 2, SIZE / 2)[3], (int)lrint(255 * alphas[i]));
         }
-    }
     hard_report("alpha 0 to 1");
 }
 
@@ -238,7 +232,7 @@ TEST(srgb_is_encoded_from_end_to_end)
     static const double values[] = {0,         1e-7,  1e-4, 0.003130, 0.0031308, 0.0031309, 0.0032,
                                     0.0044366, 0.018, 0.2,  0.5,      0.999,     1,         1};
     static const double mediump = 0.5 + 255 * 1.055 * (2 * 0x1p-8 / 2.4 + 4 * 0x1p-11);
-    for (HardPrecision precision = HARD_HIGHP; precision <= HARD_MEDIUMP; precision++) {
+    for (HardPrecision precision = HARD_HIGHP; precision <= HARD_MEDIUMP; precision++)
         for (size_t i = 0; i < sizeof values / sizeof values[0]; i++) {
             hard_world(&world, &hard.quad);
             world.scene.linear = true;
@@ -252,7 +246,6 @@ TEST(srgb_is_encoded_from_end_to_end)
             if (precision == HARD_HIGHP)
                 assert_true(fabs(pixel(SIZE / 2, SIZE / 2)[0] - 255 * encoded(values[i])) < 0.51);
         }
-    }
     hard_report("sRGB from 0 to 1");
 }
 

@@ -45,13 +45,12 @@ static void leave_out_edges(const Scene *scene, unsigned char unsure[SIZE * SIZE
     CLOSED(reference_close) Reference fine;
     SUCCEEDS(reference_open(&fine, scene, &options, message));
     memset(unsure, 0, SIZE * SIZE);
-    for (int y = 0; y < fine.height; y++) {
+    for (int y = 0; y < fine.height; y++)
         for (int x = 0; x < fine.width; x++) {
             const int pixel = y / PARTS * SIZE + x / PARTS;
             const int center = (y / PARTS * PARTS + 1) * fine.width + x / PARTS * PARTS + 1;
             unsure[pixel] |= fine.lights[y * fine.width + x] != fine.lights[center];
         }
-    }
 }
 
 static unsigned char unsure[SIZE * SIZE]; /* of the scene that is checked */

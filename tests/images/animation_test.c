@@ -152,10 +152,9 @@ static const char *const FILES[] = {"gif", "webp", "apng", "mp4", "webm"};
 /* Adds `count` of three pictures and closes. Leaves no process, and no file unless complete. */
 static void add_and_close(const char *format, int count, bool whole)
 {
-    char path[16];
     Picture picture;
     Animation *animation;
-    snprintf(path, sizeof path, "a.%s", format);
+    const char *path = formatted("a.%s", format);
     const AnimationOptions options = wanted(format, path);
     open_picture(&picture, 32, 24, IMAGE_BYTE);
     message = (Message){0};
@@ -192,10 +191,8 @@ FOLDER_TEST(a_complete_animation_is_a_file_and_an_incomplete_one_nothing)
 FOLDER_TEST(impossible_animations_are_not_opened)
 {
     for (size_t i = 0; i < sizeof FILES / sizeof FILES[0]; i++) {
-        char path[32];
         Animation *animation;
-        snprintf(path, sizeof path, "missing/a.%s", FILES[i]);
-        const AnimationOptions options = wanted(FILES[i], path);
+        const AnimationOptions options = wanted(FILES[i], formatted("missing/a.%s", FILES[i]));
         message = (Message){0};
         assert_false(animation_open(&animation, &options, &message));
         assert_null(animation);

@@ -89,7 +89,7 @@ static Image decode_png(const ImageFile *file, bool alpha)
 TEST(a_png_is_read_back_byte_for_byte_at_every_level)
 {
     static const int sizes[][2] = {{1, 1}, {3, 5}, {257, 3}, {100, 70}};
-    for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++) {
+    for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++)
         for (int alpha = 0; alpha < 2; alpha++) {
             CLOSED(image_close) Image image = random_bytes(sizes[s][0], sizes[s][1], !alpha);
             for (int level = 0; level <= 9; level++) {
@@ -99,7 +99,6 @@ TEST(a_png_is_read_back_byte_for_byte_at_every_level)
                 assert_same(&back, &image);
             }
         }
-    }
 }
 
 TEST(a_png_without_alpha_leaves_it_out_and_is_opaque)
@@ -282,7 +281,7 @@ TEST(an_exr_with_alpha_keeps_colours_to_two_roundings)
 
 TEST(a_tiff_keeps_bytes_and_floats_bit_for_bit)
 {
-    for (int alpha = 0; alpha < 2; alpha++) {
+    for (int alpha = 0; alpha < 2; alpha++)
         for (int real = 0; real < 2; real++) {
             CLOSED(image_close)
             Image image = real ? random_floats(37, 21, !alpha) : random_bytes(37, 21, !alpha);
@@ -290,21 +289,19 @@ TEST(a_tiff_keeps_bytes_and_floats_bit_for_bit)
             Image back = write_and_read(&image, "values.tif", &(ImageOptions){.alpha = alpha});
             assert_same(&back, &image);
         }
-    }
 }
 
 static Image smooth_bytes(void)
 {
     Image image = new_image(96, 64, IMAGE_BYTE);
     unsigned char *values = image.pixels;
-    for (int y = 0; y < image.height; y++) {
+    for (int y = 0; y < image.height; y++)
         for (int x = 0; x < image.width; x++, values += 4) {
             values[0] = (unsigned char)(x * 255 / 95);
             values[1] = (unsigned char)(y * 255 / 63);
             values[2] = (unsigned char)(255 - (x + y) * 255 / 158);
             values[3] = 255;
         }
-    }
     return image;
 }
 
@@ -350,7 +347,7 @@ TEST(floats_go_to_a_jpeg_or_a_webp_clamped)
         int level;
     } known[] = {{-5, 0}, {0, 0}, {0.2F, 51}, {0.8F, 204}, {1, 255}, {7, 255}};
     static const char *const names[] = {"even.jpg", "even.webp"};
-    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
         for (size_t n = 0; n < 2; n++) {
             CLOSED(image_close) Image image = new_image(16, 16, IMAGE_FLOAT);
             for (size_t v = 0; v < value_count(&image); v++)
@@ -364,7 +361,6 @@ TEST(floats_go_to_a_jpeg_or_a_webp_clamped)
                 assert_true(abs(levels[v] - expected) <= 1); /* converted to luma */
             }
         }
-    }
 }
 
 #endif
@@ -416,13 +412,11 @@ TEST(an_image_without_pixels_is_refused)
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         Image image;
         Message message = {0};
-        char expected[128];
         memset(&image, 0xa5, sizeof image);
         assert_false(image_open(&image, bad[i][0], bad[i][1], IMAGE_BYTE, &message));
         assert_null(image.pixels);
-        snprintf(expected, sizeof expected, "image: size %dx%d: must be at least 1x1", bad[i][0],
-                 bad[i][1]);
-        assert_string_equal(message.text, expected);
+        assert_string_equal(message.text, formatted("image: size %dx%d: must be at least 1x1",
+                                                    bad[i][0], bad[i][1]));
     }
 }
 

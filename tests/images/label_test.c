@@ -34,7 +34,7 @@ typedef struct Box {
 static Box ink(const Image *image)
 {
     Box box = {image->width, image->height, 0, 0};
-    for (int y = 0; y < image->height; y++) {
+    for (int y = 0; y < image->height; y++)
         for (int x = 0; x < image->width; x++) {
             if (!alpha_at(image, x, y))
                 continue;
@@ -43,7 +43,6 @@ static Box ink(const Image *image)
             box.top = y < box.top ? y : box.top;
             box.bottom = y + 1 > box.bottom ? y + 1 : box.bottom;
         }
-    }
     return box;
 }
 
@@ -89,12 +88,11 @@ FOLDER_TEST(stems_are_white)
 FOLDER_TEST(ink_is_centred_within_a_pixel)
 {
     static const char *const texts[] = {"H", "i", "AV To", "jf", "directional", " left", "right  "};
-    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++)
         for (int x = 100; x < 104; x++) {
             const Box box = ink_of(x, SIZE, texts[i]);
             assert_in_range(box.left + box.right, 2 * x - 2, 2 * x + 2);
         }
-    }
 }
 
 FOLDER_TEST(pairs_are_kerned)
@@ -111,7 +109,7 @@ FOLDER_TEST(labels_are_clipped_at_every_border)
     const Box box = ink(&large);
     int clipped = 0;
     assert_true(box.right - box.left > W && box.bottom - box.top < H);
-    for (int top = box.top - H; top <= box.bottom; top++) {
+    for (int top = box.top - H; top <= box.bottom; top++)
         for (int left = box.left - W; left <= box.right; left += 3) {
             CLOSED(image_close) Image image = new_image(W, H);
             require(image_label(&image, X - left, BASELINE - top, SIZE, "Mgj@W", &message),
@@ -123,7 +121,6 @@ FOLDER_TEST(labels_are_clipped_at_every_border)
                                     (unsigned)alpha_at(&large, left + x, top + y) + 2);
             clipped += ink(&image).left == 0 || ink(&image).top == 0;
         }
-    }
     assert_true(clipped > 100);
 }
 
@@ -213,9 +210,8 @@ FOLDER_TEST(captions_stay_within_their_rectangle)
 static void assert_no_font(const char *path, const char *reason)
 {
     Image image = new_image(WIDTH, HEIGHT);
-    char expected[256];
-    snprintf(expected, sizeof expected,
-             "%s: cannot read the font: %s; install the package fonts-dejavu-core", path, reason);
+    const char *expected = formatted(
+        "%s: cannot read the font: %s; install the package fonts-dejavu-core", path, reason);
     message = (Message){0};
     setenv("LIGHTING_FONT", path, 1);
     assert_false(image_label(&image, X, BASELINE, SIZE, "text", &message));
@@ -265,7 +261,7 @@ FOLDER_TEST(captions_are_read_over_white)
         ((unsigned char *)dark.pixels)[4 * i + 3] = 255;
     require(image_caption(&dark, place, 12, "spot, attenuated", &message), &message);
     require(image_caption(&bright, place, 12, "spot, attenuated", &message), &message);
-    for (int y = 0; y < HEIGHT; y++) {
+    for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++) {
             const int at = 4 * (y * WIDTH + x);
             if (((unsigned char *)dark.pixels)[at] < 200)
@@ -274,7 +270,6 @@ FOLDER_TEST(captions_are_read_over_white)
             assert_true(((unsigned char *)bright.pixels)[at] >= 200);
             assert_true(has_dark_beside(&bright, x, y));
         }
-    }
     assert_true(white > 100);
 }
 

@@ -160,6 +160,7 @@ class Class(base.Case):
 
 
 class Names(Class):
+    @base.in_long_form
     def test_submissions_are_found_under_names_of_people_and_platforms(self):
         self.submit("mueller_anna")
         self.submit("123456")
@@ -276,6 +277,7 @@ class Abuse(Class):
         info.type, info.linkname = kind, target
         return info
 
+    @base.in_long_form
     def test_an_attack_costs_only_its_own_submission(self):
         secret = "the teacher's secret"
         self.make("secret.frag", "#error " + secret)
@@ -348,6 +350,7 @@ class Abuse(Class):
             self.assertNotIn(secret.encode(), content, path)
             self.assertNotIn(b"root:", content, path)
 
+    @base.in_long_form
     def test_c_runs_only_in_a_sandbox(self):
         """The fork bombs run only after the program has proven its limits in this very folder and
         for this very user."""
@@ -491,6 +494,7 @@ class Results(Class):
         self.assertGreater(picture.width, picture.height)
         self.assertEqual(picture.texts, {})
 
+    @base.in_long_form
     def test_similar_submissions_are_listed_with_both_texts(self):
         """Each student writes a line that no other has; the copy has other names, order and layout. Lines of both
         that begin with acc, which may be read as a number, are not the same."""
@@ -519,6 +523,7 @@ class Results(Class):
         Page(page)
         self.assertNotIn("second", read(self.path("out", "students", "first", "index.html")))
 
+    @base.in_long_form
     def test_a_run_continues_where_another_stopped(self):
         count = 12 if base.LONG else 6
         for i in range(count):
@@ -537,6 +542,7 @@ class Results(Class):
         self.assertEqual(len(second), count)
         self.assertEqual({name: second[name] for name in first}, first)
 
+    @base.in_long_form
     def test_signals_that_are_ignored_do_not_interrupt(self):
         """As with nohup."""
         for i in range(3):
@@ -612,6 +618,7 @@ class Results(Class):
                 with self.subTest(processes=count, signal=end):
                     self.check_end(end, lambda started: len(started) >= count)
 
+    @base.in_long_form
     def test_a_changed_submission_is_judged_again(self):
         self.submit("a", STARTER)
         self.submit("b")
@@ -630,6 +637,7 @@ class Results(Class):
         third = self.judged()
         self.assertTrue(all(third[name] > second[name] for name in second))
 
+    @base.in_long_form
     def test_the_front_has_those_that_no_other_beats(self):
         """Of results with other costs."""
         costs = {"a": (1, 500), "b": (0.5, 1000), "c": (1, 1000), "d": (0.5, 1000), "e": None}
@@ -654,6 +662,7 @@ class Results(Class):
         self.assertIn("a/result.json: not a valid result, judging again", "\n".join(self.lab5()))
         self.assertEqual(self.verdicts(), {"a": "right"})
 
+    @base.in_long_form
     def test_a_finished_result_stays_when_the_next_is_worse(self):
         """The same submission has too little time in the second run; the first is as if it had enough."""
         self.submit("fast")
@@ -695,6 +704,7 @@ class Results(Class):
             self.assertEqual(result.returncode, 1)
             self.assertRegex(result.stderr.decode(), "^check: no submission is judged: .*: the limit of " + said)
 
+    @base.in_long_form
     def test_variables_of_the_driver_change_no_verdict(self):
         """llvmpipe divides by zero with vectors of 7 bits, and draws anything with some others."""
         for setting in {"LP_NATIVE_VECTOR_WIDTH": "7"}, {"GALLIUM_DRIVER": "nonsense", "LD_PRELOAD": ""}:
@@ -753,6 +763,10 @@ class Results(Class):
         self.lab5("--part", "2/3", "--seed", "9", out="seed")
         shutil.rmtree(self.path("other"))
         refused("part1 and seed were not judged alike: seed is 1 and 9", "part1", "seed", "part3")
+        run = json.loads(self.read("part2/run.json"))
+        for what in ("lab's files", "program"):  # another version of either
+            self.make("part2/run.json", json.dumps({**run, what: "0123"}).encode())
+            refused(f'part1 and part2 were not judged alike: {what} is "[0-9a-f]{{16}}" and "0123"', *parts)
 
     def test_results_of_another_lab_are_left_alone(self):
         self.submit("a")
@@ -789,6 +803,7 @@ class Results(Class):
         )
         self.assertFalse(os.path.exists(self.path("out/class.csv")))
 
+    @base.in_long_form
     def test_without_bubblewrap_limits_remain(self):
         """And C does not run."""
         self.submit("a")

@@ -33,6 +33,7 @@ LABS = mistakes.NAMES
 EXAMPLES = os.path.join(base.SOURCE, "examples", "labs")
 CHECK = os.path.join(base.EXAMPLES, "check")
 WORKERS = os.cpu_count() or 1
+FIRST = r"Wrong first, (where it is worst|in scene \w+ \(known\), column \d+, row \d+ from the top): "
 
 
 def start_check(*arguments):
@@ -279,17 +280,21 @@ class Wrong(Labs):
             self.assertTrue(result["symptoms"], name)
 
 
+    @base.in_long_form
     def test_what_is_at_another_place_is_named(self):
-        """A statement, a value of another light, what is computed at the vertices, an axis of its own."""
+        """A value of another light, a sum after the loop, what is computed at the vertices, an axis of its own."""
         loop, view = "    for (int i = 0; i < 2; i++) {", "normalize(u_EyePosition - v_Position)"
         reflected = "    vec3 R = reflect(-normalize(u_LightPosition[0] - v_Position), normal);\n"
         part = "part = u_LightColor[i] * nDotL;\n    }\n    light += part;"
         fade = "vec3 u_LightPosition, u_Attenuation;\nvarying float v_Fade;\nvoid main() {"
         cases = (
-            (6, "that of the first light, not of each light", ("frag", loop, reflected + loop),
+            (6, "R for reflected", ("frag", loop, reflected + loop),
              ("frag", "dot(reflected,", "dot(R,")),
-            (5, "after the loop, not in it: light += part", ("frag", loop, "    vec3 part;\n" + loop),
+            (5, "= for +=: part", ("frag", loop, "    vec3 part;\n" + loop),
              ("frag", "light += u_LightColor[i] * nDotL;\n    }", part)),
+            (5, "after the loop, not in it: light += part * nDotL", ("frag", loop, "    vec3 part;\n    float nDotL;\n" + loop),
+             ("frag", "float nDotL = ", "nDotL = "),
+             ("frag", "light += u_LightColor[i] * nDotL;\n    }", "part = u_LightColor[i];\n    }\n    light += part * nDotL;")),
             (8, "v_Fade ", ("vert", "void main() {", "uniform " + fade),
              ("vert", "    v_Color =", "    float d = length(u_LightPosition - v_Position);\n    v_Fade = "
               "1.0 / (u_Attenuation.x + u_Attenuation.y * d + u_Attenuation.z * d * d);\n    v_Color ="),
@@ -315,6 +320,21 @@ def edited(lab, *edits):
     return texts
 
 
+# Lab 6: a highlight by a function, and all in eye space.
+SHINE = """float shine(vec3 n, vec3 l, vec3 v) {
+    return dot(n, l) > 0.0 ? pow(max(dot(reflect(-l, n), v), 0.0), u_Shininess) : 0.0;
+}
+"""
+IN_EYE_SPACE = (
+    ("vert", "uniform mat4 u_ModelMatrix;", "uniform mat4 u_ModelViewMatrix, u_ViewMatrix;\nuniform vec3 u_LightPosition[2];\nvarying vec3 v_Light[2];"),
+    ("vert", "u_ModelMatrix * a_Position", "u_ModelViewMatrix * a_Position"),
+    ("vert", "u_NormalMatrix", "u_EyeNormalMatrix"),
+    ("vert", "v_Color =", "for (int i = 0; i < 2; i++)\n        v_Light[i] = vec3(u_ViewMatrix * vec4(u_LightPosition[i], 1.0));\n    v_Color ="),
+    ("frag", "uniform vec3 u_LightPosition[2];", "varying vec3 v_Light[2];"),
+    ("frag", "u_LightPosition[i] - v_Position", "v_Light[i] - v_Position"),
+)  # fmt: skip
+
+
 class Holes(Labs):
     """What once passed."""
 
@@ -325,6 +345,7 @@ class Holes(Labs):
     vec3 normal = normalize(place);
     vec3 lightDirection = normalize(u_LightPosition - place);"""
 
+    @base.in_long_form
     def test_values_explain_what_pictures_do_not(self):
         """Black, or anything: what is drawn is told from the numbers."""
         start, out = "vec3 light = u_AmbientLight;", "vec4(light * v_Color.rgb"
@@ -357,6 +378,7 @@ class Holes(Labs):
         self.assertEqual(result["verdict"], "wrong", (lab, edits, result["message"]))
         return result
 
+    @base.in_long_form
     def test_what_is_said_to_mend_it_does(self):
         """In lab 7 several exponents are right, and two mistakes that hide each other are named in every seed."""
         halved = ("frag", "normalize(lightDirection + viewDirection)", "(lightDirection + viewDirection) / 2.0")
@@ -382,6 +404,7 @@ class Holes(Labs):
             for name, said in zip(names, named(result)):
                 self.assertTrue(said.startswith(name), (edits, result["message"]))
 
+    @base.in_long_form
     def test_shadows_that_are_filtered(self):
         """Named in the student's words; what is changed as the fields say is right."""
         cases = {
@@ -403,7 +426,7 @@ class Holes(Labs):
         for case, result, after in zip(cases, results, in_parallel(check_texts, [(11, texts, 5) for texts in mended])):
             self.assertTrue(result["message"].startswith(cases[case]), (case, result["message"]))
             self.assertEqual(after["verdict"], "right", (case, after["message"]))
-            self.assertTrue(any(said.startswith("Wrong first, where it is worst") for said in result["symptoms"]), (case, result["symptoms"]))
+            self.assertTrue(any(re.match(FIRST, said) for said in result["symptoms"]), (case, result["symptoms"]))
 
     def changed(self, texts, said):
         """With each mistake's change, the last first."""
@@ -414,12 +437,98 @@ class Holes(Labs):
             texts = {**texts, one["file"]: texts[one["file"]][:start] + one["change"] + texts[one["file"]][start + len(one["text"]) :]}
         return texts
 
+    def test_one_place_of_several(self):
+        """Where a name stands twice in a line the operation around it is said; what is moved is one mistake."""
+        light, add = "float nDotL = dot(normal, lightDirection);", "light += u_LightColor[i] * nDotL;"
+        cases = (
+            (5, "not normalized: v_Normal", ("frag", "= normalize(v_Normal);", "= dot(v_Normal, v_Normal) > 0.0 ? v_Normal : vec3(1.0);")),
+            (5, "added for each light, or twice: u_AmbientLight", ("frag", "vec3 light = u_AmbientLight;", "vec3 light = vec3(0.0);"),
+             ("frag", add, "light += u_AmbientLight + u_LightColor[i] * nDotL;")),
+            (6, "also where dot(normal, lightDirection) is not above 0", ("frag", light, ""), ("frag", "if (nDotL > 0.0)", ""),
+             ("frag", "* nDotL;", "* max(dot(normal, lightDirection), 0.0);")),
+            (9, "clamped at another place", ("frag", "        normal = -normal;\n", ""),
+             ("frag", "nDotL = max(dot(normal, lightDirection), 0.0);", "c = max(dot(normal, lightDirection), 0.0), nDotL = front ? c : -c;")),
+            (11, "not asked: what is beside the map", ("frag", mistakes.OUTSIDE, "    place.xy = min(max(place.xy, 0.0), 1.0);\n"),
+             ("frag", mistakes.COMPARE + " ? 1.0 : 0.0", "step(place.z - BIAS, mapDepth(place.xy))")),
+            (11, "on the ambient light, too: visibility()", ("frag", mistakes.SUM + ";", "u_AmbientLight + u_LightColor * nDotL;\n    light *= visibility();")),
+            (5, "normalized before the difference: ", ("frag", mistakes.TO_LIGHT[5], "normalize(u_LightPosition[i]) - normalize(v_Position)")),
+            (5, "squared length: way", ("frag", mistakes.TO_LIGHT[5], "way / dot(way, way)"),
+             ("frag", "vec3 lightDirection", "vec3 way = u_LightPosition[i] - v_Position;\n        vec3 lightDirection")),
+            (5, "squared length: ", ("frag", mistakes.TO_LIGHT[5] + ";", "u_LightPosition[i] - v_Position, d = lightDirection;\n        lightDirection /= d.x * d.x + d.y * d.y + d.z * d.z;")),
+            (5, "its result is not used: normalize(normal)", ("frag", "= normalize(v_Normal);", "= v_Normal;\n    normalize(normal);")),
+            (5, "not inout: sum", ("frag", mistakes.MAIN, "void put(vec3 sum, vec3 more) {\n    sum += more;\n}\n" + mistakes.MAIN), ("frag", add, "put(light, u_LightColor[i] * nDotL);")),
+            (5, "lamps[0] for lamps[i]", ("frag", mistakes.MAIN, "struct Lamp {\n    vec3 color;\n};\n" + mistakes.MAIN), ("frag", "u_LightColor[i] * nDotL", "lamps[0].color * nDotL"),
+             ("frag", "    vec3 light =", "    Lamp lamps[2];\n    lamps[0].color = u_LightColor[0];\n    lamps[1].color = u_LightColor[1];\n    vec3 light =")),
+            (7, "L - normalize(E) for L + normalize(E)", ("frag", "normalize(lightDirection + viewDirection)", "normalize(L - normalize(E))"),
+             ("frag", "lightDirection", "L"), ("frag", "viewDirection = normalize(u_EyePosition - v_Position)", "E = u_EyePosition - v_Position")),
+            (8, "not its reciprocal: ", ("frag", mistakes.ATTENUATION, mistakes.ATTENUATION[6:])),
+            (8, "factor too many: att", ("frag", mistakes.MAIN, "float att(float d) {\n    float c = dot(u_Attenuation, vec3(1.0, d, d * d));\n    return 1.0 / c;\n}\n" + mistakes.MAIN),
+             ("frag", mistakes.ATTENUATION, "att(distance)"), ("frag", "color += attenuation", "vec3 lit = att(distance) * attenuation"),
+             ("frag", "u_LightColor * reflectance;", "u_LightColor * reflectance;\n        color += lit;")),
+            (6, "swapped: viewDirection and lightDirection", ("frag", mistakes.MAIN, SHINE + mistakes.MAIN), ("frag", "if (nDotL > 0.0) ", ""),
+             ("frag", "* nDotL;", "* max(nDotL, 0.0);"), ("frag", "pow(rDotV, u_Shininess)", "shine(normal, viewDirection, lightDirection)")),
+            (6, "times u_SpecularColor, too: ", ("frag", "* v_Color.rgb * nDotL;", "* (1.0 - 1.0);"),
+             ("frag", "u_SpecularColor * pow(rDotV, u_Shininess)", "u_SpecularColor * (v_Color.rgb * nDotL + pow(rDotV, u_Shininess))")),
+            (6, "sign of v_Position reversed", *IN_EYE_SPACE, ("frag", "normalize(u_EyePosition - v_Position)", "normalize(v_Position)"),
+             ("frag", "reflect(-lightDirection, normal)", "2.0 * nDotL * normal - lightDirection")),
+            (1, "not in eye space: u_LightDirection", ("vert", "u_NormalMatrix", "u_EyeNormalMatrix"), ("vert", mistakes.MAIN, "uniform mat4 u_ViewMatrix;\n" + mistakes.MAIN)),
+            (4, "reversed: position - u_LightPosition[i]", ("vert", "light = u_AmbientLight;", "light = u_AmbientLight * a_Color.rgb;"),
+             ("vert", "light += ", "light += a_Color.rgb * "), ("vert", "light * a_Color.rgb", "light"),
+             ("vert", "u_LightPosition[i] - position", "position - u_LightPosition[i]")),
+            (9, "sign reversed: normal", ("frag", "        normal = -normal;\n", ""), ("frag", "if (!front)", "bool back = !front;\n    if (back)")),
+            (11, "0.4 + 0.6 * visibility() for visibility()", ("frag", mistakes.SUM, "u_AmbientLight + (0.4 + 0.6 * visibility()) * u_LightColor * nDotL")),
+            (3, "angle without its fraction", ("c", "DEGREES_PER_SECOND * seconds", "(int)(DEGREES_PER_SECOND * seconds)")),
+        )  # fmt: skip
+        cases = cases[:: base.step(3)]
+        given = [edited(lab, *edits) for lab, _, *edits in cases]
+        results = in_parallel(check_texts, [(lab, texts) for (lab, *_), texts in zip(cases, given)])
+        for (lab, said, *_), texts, result in zip(cases, given, results):
+            self.assertEqual(len(result["mistakes"]), 1, (said, result["message"]))
+            self.assertTrue(named(result)[0].startswith(said), (said, named(result)))
+            if result["mistakes"][0]["line"]:
+                after = self.changed(texts, result["mistakes"])
+                self.assertEqual(check_texts(lab, after)["verdict"], "right", (said, result["mistakes"]))
+
+    def test_the_first_wrong_value_is_at_the_mistake(self):
+        """Also where nothing there is assigned: of a condition, a loop that is too short, a line that is missing, a function."""
+        cases = (
+            (9, "normal", 24, ("frag", "        normal = -normal;\n", "")),
+            (6, "color", 24, ("frag", "i < 2", "i < 1")),
+            (11, "light", 31, ("frag", "<= mapDepth", "> mapDepth")),
+            (6, "color", 29, ("frag", "if (nDotL > 0.0) {", "{")),
+            (8, "color", 34, ("frag", "cos(radians(u_SpotCutoff))", "cos(u_SpotCutoff)")),
+            (5, "nDotL", 23, ("frag", "max(dot(lightDirection, normal), 0.0)", "0.5 * dot(lightDirection, normal) + 0.5")),
+            (6, "color", 23, ("frag", "u_AmbientLight * v_Color.rgb", "vec3(0.0)")),
+            (7, "gl_Position", 17, ("vert", mistakes.PROJECT, mistakes.PROJECT + "\n    gl_Position.z = 0.0;")),
+        )[:: base.step(4)]
+        results = in_parallel(check_texts, [(lab, edited(lab, edit), 3) for lab, *_, edit in cases])
+        for (lab, name, line, edit), result in zip(cases, results):
+            first = [said for said in result["symptoms"] if said.startswith("Wrong first, in scene")]
+            self.assertEqual(len(first), 1, (edit, result["symptoms"]))
+            self.assertRegex(first[0], rf": {name} is [-\d].*; right is [-\d].*\. See line {line} of lab{lab:02}\.", edit)
+            self.assertIn(f"line {line} of", result["mistakes"][0]["look"], edit)
+
+    @base.in_long_form
     def test_two_mistakes_have_their_places(self):
         texts = mistakes.pair(6, "not renormalized per fragment", "reflect's sign")
         result = check_texts(6, texts, 3)
         self.assertEqual(len(result["mistakes"]), 2, result["message"])
         self.assertEqual(check_texts(6, self.changed(texts, result["mistakes"]), 3)["verdict"], "right")
-        self.assertIn("Wrong first, where it is worst", " ".join(result["symptoms"]))
+        self.assertRegex(" ".join(result["symptoms"]), FIRST)
+
+    def test_two_mistakes_at_several_places_each(self):
+        """Of a formula of the student's own, so that changes of the solution explain them."""
+        far = {name: text.decode() for name, text in corpus.read(4)["n19-d"].items() if name != "label"}
+        color = (("frag", "= u_AmbientLight * v_Color.rgb", "= u_AmbientLight"), ("frag", "u_LightColor[i] * v_Color.rgb", "u_LightColor[i]"),
+                 ("frag", "vec4(color,", "vec4(color * v_Color.rgb,"))
+        for lab, texts, names in (
+            (4, far, ["not normalized: ", "factor missing: u_NormalMatrix"]),
+            (6, edited(6, ("frag", "reflect(-lightDirection, normal)", "reflect(lightDirection, -normal)"), *color), ["sign reversed: ", "times v_Color.rgb, too: "]),
+        )[: 2 if base.LONG else 1]:
+            found = check_texts(lab, texts, 3)
+            self.assertEqual(len(named(found)), 2, found["message"])
+            for name, said in zip(names, named(found)):
+                self.assertTrue(said.startswith(name), found["message"])
 
     def test_matrices_have_their_line(self):
         texts = {"matrices.c": corpus.read(3)["wf1"]["matrices.c"].decode()}
@@ -463,6 +572,7 @@ class Holes(Labs):
         self.assertEqual(result["verdict"], "wrong", result["message"])
         self.assertIn(named(result), ([], ["mesh too coarse"]))
 
+    @base.in_long_form
     def test_an_index_beyond_the_array(self):
         """Which reads 0 here, and passed."""
         loop = "i < 2"
@@ -486,10 +596,12 @@ class Holes(Labs):
         other = mistakes.read(2)["lab02.vert"].replace("i < 2", "i < 3")
         self.assertEqual(check_texts(1, {**mistakes.read(1), "lab02.vert": other})["verdict"], "right")
 
+    @base.in_long_form
     def test_an_exponent_a_little_off(self):
         result = self.wrong(6, ("frag", "u_Shininess)", "0.95 * u_Shininess)"))
         self.assertEqual(named(result), ["factor too many: 0.95"])
 
+    @base.in_long_form
     def test_numbers_a_little_off(self):
         edits = (
             ("{0.5, 0.3, -0.8}", "{0.5, 0.32, -0.8}"),
@@ -522,6 +634,7 @@ class Holes(Labs):
             self.assertEqual(result["verdict"], "error", (lab, result["message"]))
             self.assertIn("precision", result["message"] + result["details"])
 
+    @base.in_long_form
     def test_a_coarse_mesh_with_a_ray_to_the_sphere(self):
         normal = "vec3 normal = normalize(v_Normal);\n    vec3 lightDirection = normalize(u_LightPosition - v_Position);"
         result = self.wrong(
@@ -533,6 +646,7 @@ class Holes(Labs):
         )
         self.assertIn("mesh too coarse", named(result))
 
+    @base.in_long_form
     def test_what_is_drawn_is_what_is_counted(self):
         right = check_solution(10)[1]
         texts = edited(10)
@@ -548,6 +662,7 @@ class Holes(Labs):
         result = self.wrong(10, ("frag", "void main() {\n", early))
         self.assertEqual(named(result), ["depends on the picture's size"])
 
+    @base.in_long_form
     def test_nothing_depends_on_the_compiler(self):
         for lab, head, other, said in (
             (6, "#if __VERSION__ == 100", "#else", "__VERSION__"),
@@ -659,6 +774,7 @@ class Faults(Labs):
                 file.write(text.replace("vec3 light = u_AmbientLight;", f"vec3 light = u_AmbientLight; {loop}"))
             self.refused_with(5, mine, r"^lab05\.frag:\d+: ", said)
 
+    @base.in_long_form
     def test_a_submission_is_read_as_one_of_a_class_is(self):
         """Names, folders, archives and sizes that a class's students may use."""
         solution = self.folder_of(5)
@@ -706,6 +822,7 @@ class Faults(Labs):
             os.chmod(path, 0)
             self.refused_with(5, mine, r"lab05\.frag")
 
+    @base.in_long_form
     def test_an_include_stays_in_its_folder(self):
         for name in ("/etc/passwd", "../other/secret.glsl", "/dev/zero", "common.h"):
             self.make("other/secret.glsl", "secret\n")
@@ -716,6 +833,7 @@ class Faults(Labs):
             self.assertNotIn("root:", json.dumps(result))
             self.assertNotIn("secret\n", json.dumps(result))
 
+    @base.in_long_form
     def test_c_that_does_not_compile_or_end(self):
         head = '#include "lab_code.h"\nvoid lab_matrices(double s, Mat4 *w, Mat4 *n)\n{\n'
         broken = (
@@ -783,6 +901,7 @@ class Faults(Labs):
         sheet = self.png(os.path.join("found", result["pictures"][0]))
         self.assertGreaterEqual(sheet.width, 3 * 64)
 
+    @base.in_long_form
     def test_points_for_cost_depend_on_counts_and_not_on_time(self):
         first = check_solution(10)[1]
         cost = first["cost"]
@@ -804,6 +923,7 @@ class Faults(Labs):
         self.assertEqual(uncut["verdict"], "right")
         self.assertLess(uncut["points"], first["points"])
 
+    @base.in_long_form
     def test_a_seed_always_gives_the_same_result(self):
         wrong = mistakes.single(6, "reflect's sign")
         first, second = check_texts(6, wrong, 12), check_texts(6, wrong, 12)

@@ -97,6 +97,7 @@ class Extra(Case):
         ("spot", "v_Color.rgb, v_Color.a", "v_Color.bgr, v_Color.a", "gl_FragColor", "line 27 of spot.frag"),
     ]
 
+    @base.in_long_form
     def test_the_first_wrong_value_is_told_and_drawn(self):
         for name, old, new, value, place in self.FIRST[:: base.step(2)]:  # both labs, and the result
             lab = os.path.join(EXTRA, name)
@@ -109,7 +110,7 @@ class Extra(Case):
                 width, height = struct.unpack(">II", file.read(24)[16:])
             drawn = value != "gl_FragColor"
             self.assertEqual(len(first), 2 if drawn else 1, symptoms)
-            self.assertRegex(first[0], rf"worst.*: {value} is [-\d].*; right is [-\d].*\. See {place}")
+            self.assertRegex(first[0], rf"^Wrong first, .*: {value} is [-\d].*; right is [-\d].*\. See {place}")
             if drawn:
                 self.assertRegex(first[1], rf"submitted and right: {value}: from .*, dark violet, to ")
             # Square scenes; one is twice as wide.
@@ -142,6 +143,7 @@ class Extra(Case):
                              "    spot *= spot * (3.0 - 2.0 * spot);")},
     }
 
+    @base.in_long_form
     def test_mistakes_are_wrong_and_alternatives_right(self):
         for verdict, changes in (("wrong", self.MISTAKES), ("right", self.ALTERNATIVES)):
             for name, of_lab in changes.items():
@@ -262,6 +264,7 @@ class Points(Case):
         self.write("void main() {", "mine", "spot.frag")
         self.assertEqual([(part["state"], part["points"]) for part in result(lab, mine)["parts"]], [("not judged", 0)] * 4)
 
+    @base.in_long_form
     def test_days(self):
         for rule, days in (
             ('10', {0: 10, 1: 9, 2: 8, 10: 0, 200: 0}), ('[10, 25, 100]', {1: 9, 2: 7.5, 3: 0, 9: 0}), ('3', {1: 9.5, 2: 9}),
@@ -319,6 +322,7 @@ class Points(Case):
 
 
 class Folder(Case):
+    @base.in_long_form
     def test_the_labs_of_the_programs_are_the_same_by_their_folders(self):
         names = sorted(name for name in os.listdir(LABS) if os.path.exists(os.path.join(LABS, name, "lab.json")))
         self.assertEqual(len(names), 11)
@@ -333,6 +337,7 @@ class Folder(Case):
         by_folder = result(os.path.join(LABS, "lab06_phong"), solution)
         self.assertEqual({**json.loads(by_name.stdout), "seconds": 0}, {**by_folder, "seconds": 0})
 
+    @base.in_long_form
     def test_points_and_tolerance(self):
         lab = self.copy("fog", "fog")
         self.change('"most": 10, "drawn": 1, "scenes": 8', '"most": 30, "drawn": 5, "scenes": 10', "fog", "lab.json")
@@ -343,6 +348,7 @@ class Folder(Case):
         near = self.write(read(lab, "solution", "fog.frag").replace("exp(-depth", "0.97 * exp(-depth"), "mine", "fog.frag")
         self.assertEqual(result(lab, near)["verdict"], "right")
 
+    @base.in_long_form
     def test_names_of_its_own_several_solutions_and_another_folder_name(self):
         lab = self.copy("fog", "my lab")
         for file in "lab.json", os.path.join("solution", "fog.vert"), os.path.join("solution", "fog.frag"):
@@ -402,6 +408,7 @@ class Folder(Case):
             self.assertIn(os.path.join(os.path.realpath(lab), "lab.json"), done.stderr)
             self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
 
+    @base.in_long_form
     def test_the_report_says_what_no_scene_shows(self):
         lab = self.copy("fog", "fog")
         same, missed = "reversed: v_Position - u_EyePosition", "term missing: u_AmbientLight"
@@ -506,6 +513,7 @@ void main()
         self.assertEqual(result.returncode, 1)
         self.assertIn("the solution draws one colour and nothing else", result.stderr)
 
+    @base.in_long_form
     def test_light_at_the_vertices(self):
         for name in "lab01_diffuse", "lab09_two_sided":
             folder = os.path.join(base.SOURCE, "shaders/labs/solutions", name)

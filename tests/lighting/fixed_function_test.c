@@ -123,9 +123,8 @@ static int main_ours(const char *given_seed, const char *count)
 static FILE *run_ours(pid_t *child, int scenes)
 {
     int ends[2];
-    char seed_text[24], count_text[12];
-    snprintf(seed_text, sizeof seed_text, "%llu", (unsigned long long)seed);
-    snprintf(count_text, sizeof count_text, "%d", scenes);
+    const char *seed_text = formatted("%llu", (unsigned long long)seed);
+    const char *count_text = formatted("%d", scenes);
     assert_int_equal(pipe(ends), 0);
     *child = fork();
     if (*child == 0) {
@@ -167,7 +166,7 @@ typedef struct Tally {
 static int compare(const Image *ours, const Image *theirs, const Image *sides, Tally *tally)
 {
     int apart = 0;
-    for (int y = 0; y < SIZE; y++) {
+    for (int y = 0; y < SIZE; y++)
         for (int x = 0; x < SIZE; x++) {
             const int levels = pixel_levels(pixel(ours, x, y), pixel(theirs, x, y));
             const bool edge = at_edge(sides, x, y);
@@ -177,7 +176,6 @@ static int compare(const Image *ours, const Image *theirs, const Image *sides, T
             tally->inner += !edge && pixel(sides, x, y)[0] != 0;
             apart += !edge && levels > 1;
         }
-    }
     return apart;
 }
 
@@ -202,8 +200,7 @@ TEST(every_scene_is_drawn_as_opengl_1_1_draws_it)
         const int apart = compare(&ours, &theirs, &sides, &tally);
         if (apart == 0)
             continue;
-        char name[32];
-        snprintf(name, sizeof name, "fixed-function-%d", i);
+        const char *name = formatted("fixed-function-%d", i);
         printf("scene %d: %d pixels more than one level apart\n", i, apart);
         if (wrong++ < 5)
             picture_check_keep(name, &ours, &theirs);

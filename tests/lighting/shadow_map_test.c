@@ -23,9 +23,8 @@ TEST(maps_are_nearly_right)
     } sizes[] = {{128, 0, 20}, {1024, 0, 4}, {1024, 1, 8}};
     bool all = true;
     SUCCEEDS(Shadows.init(&(ShaderLoader){.precision = "highp"}, message));
-    for (int light = 0; light < 3; light++) {
+    for (int light = 0; light < 3; light++)
         for (int i = 0; i < 3; i++) {
-            char name[64];
             Scene scene = {.object_count = 0};
             CLOSED(scene_copy_close) SceneCopy copy;
             example_scene(&Shadows)->make(1, 0, &scene);
@@ -33,10 +32,9 @@ TEST(maps_are_nearly_right)
             for (int k = 0; k < 3; k++)
                 copy.lights[k].off = k != light;
             use_map(sizes[i].size, sizes[i].smooth, SHADOWS_DEFAULT.bias);
-            snprintf(name, sizeof name, "map-%d-%d-%d", light, sizes[i].size, sizes[i].smooth);
-            all &= check_wrong(name, &copy.scene, sizes[i].most);
+            all &= check_wrong(formatted("map-%d-%d-%d", light, sizes[i].size, sizes[i].smooth),
+                               &copy.scene, sizes[i].most);
         }
-    }
     lighting_forget(lighting, NULL);
     Shadows.finish();
     use_way(SHADOWS_VOLUMES);
@@ -98,11 +96,9 @@ TEST_WITH(0, each_light_has_its_map, open_meshes, close_meshes)
     bool all = true;
     use_map(1024, 0, SHADOWS_DEFAULT.bias);
     for (int i = 0; i < 2; i++) {
-        char name[32];
         make_eight_lights();
         world.scene.light_count = counts[i];
-        snprintf(name, sizeof name, "%d-maps", counts[i]);
-        all &= check_wrong(name, &world.scene, 16);
+        all &= check_wrong(formatted("%d-maps", counts[i]), &world.scene, 16);
     }
     use_way(SHADOWS_VOLUMES);
     assert_true(all);

@@ -27,30 +27,25 @@ TEST(programs_draw_the_shadows_of_the_reference)
     static const double times[] = {0, 2.3};
     const int step = testing_step(60);
     int number = 0;
-    bool all = true;
     for (int i = 0; i < EXAMPLE_COUNT; i++) {
         const Example *example = EXAMPLES[i];
         int columns, rows;
         SUCCEEDS(example->init(&(ShaderLoader){.precision = "highp"}, message));
         const int views = scene_view_grid(example_scene(example), &columns, &rows);
-        for (int view = 0; view < views; view++) {
+        for (int view = 0; view < views; view++)
             for (int t = 0; t < 2; t++) {
-                char name[96];
                 Scene scene = {.object_count = 0};
                 SceneCopy copy;
                 example_scene(example)->make(times[t], view, &scene);
                 if (scene.object_count == 0 || (number++ % step && example != &Shadows))
                     continue;
                 give_shadows(&copy, &scene);
-                snprintf(name, sizeof name, "%s-%d-%d", example->name, view, t);
-                all &= check(name, &copy.scene);
+                assert_true(check(formatted("%s-%d-%d", example->name, view, t), &copy.scene));
                 scene_copy_close(&copy);
             }
-        }
         lighting_forget(lighting, NULL);
         example->finish();
     }
-    assert_true(all);
 }
 
 /* Lights below the floor, behind the wall, and anywhere; eyes in front, at the side, above, behind
@@ -62,7 +57,6 @@ enum { EYES = sizeof eyes / sizeof eyes[0] };
 /* One light of the program alone, at a place or in a direction. */
 static bool check_lit_from(const char *name, double seconds, int light, Vec3 place, Vec3 eye)
 {
-    char full_name[160];
     Scene scene = {.object_count = 0};
     SceneCopy copy;
     example_scene(&Shadows)->make(seconds, 0, &scene);
@@ -74,9 +68,9 @@ static bool check_lit_from(const char *name, double seconds, int light, Vec3 pla
         copy.lights[light].direction = place;
     else
         copy.lights[light].position = place;
-    snprintf(full_name, sizeof full_name, "%s, light %d at %.17g,%.17g,%.17g, eye %.3g,%.3g,%.3g",
-             name, light, place.x, place.y, place.z, eye.x, eye.y, eye.z);
-    const bool right = check(full_name, &copy.scene);
+    const bool right = check(formatted("%s, light %d at %.17g,%.17g,%.17g, eye %.3g,%.3g,%.3g",
+                                       name, light, place.x, place.y, place.z, eye.x, eye.y, eye.z),
+                             &copy.scene);
     scene_copy_close(&copy);
     return right;
 }
@@ -110,21 +104,19 @@ TEST(lights_may_be_behind_floor_and_wall)
     enum { CASES = sizeof cases / sizeof cases[0] };
     const int step = testing_step(10);
     Random random = {testing_seed(20261122)};
-    bool all = true;
     SUCCEEDS(Shadows.init(&(ShaderLoader){.precision = "highp"}, message));
     for (int i = 0; i < CASES * EYES; i += step)
-        all &= check_lit_from(cases[i % CASES].name, 0, cases[i % CASES].light,
-                              cases[i % CASES].place, eyes[i / CASES]);
+        assert_true(check_lit_from(cases[i % CASES].name, 0, cases[i % CASES].light,
+                                   cases[i % CASES].place, eyes[i / CASES]));
     for (int i = 0; i < RANDOM; i++) {
         const double seconds = random_between(&random, 0, 12);
         const Vec3 place = random_place(&random, i % 2 ? 6 : 3);
         const Vec3 eye = i % 4 < 2 ? eyes[random_below(&random, EYES)] : random_place(&random, 8);
         if (i % step == i / step % step) /* one of each `step`, odd and even */
-            all &= check_lit_from("anywhere", seconds, i / 2 % 2, place, eye);
+            assert_true(check_lit_from("anywhere", seconds, i / 2 % 2, place, eye));
     }
     lighting_forget(lighting, NULL);
     Shadows.finish();
-    assert_true(all);
 }
 
 /* Hard cases: an object over a floor in the light of a point. */
@@ -153,10 +145,8 @@ TEST_WITH(0, any_mesh_throws_the_shadow_of_its_triangles, open_meshes, close_mes
                                         "teapot", "doubled triangle", "T-junction"};
     const Mat4 turned = mat4_rotate(-65, (Vec3){1, 0.3, 0.2});
     const Mat4 mirrored = mat4_product(turned, mat4_scale((Vec3){-1, 0.9, 1}));
-    bool all = true;
-    for (int i = 0; i < 7; i++) {
+    for (int i = 0; i < 7; i++)
         for (int way = 0; way < 4; way++) {
-            char name[64];
             if (meshes[i] == &doubled && way == 2)
                 continue; /* two surfaces in one place, with opposite normals on each side */
             make_world(meshes[i]);
@@ -166,11 +156,8 @@ TEST_WITH(0, any_mesh_throws_the_shadow_of_its_triangles, open_meshes, close_mes
                 world.lights[0].kind = LIGHT_DIRECTIONAL;
                 world.lights[0].direction = (Vec3){1.1, 3.2, 1.7};
             }
-            snprintf(name, sizeof name, "%s-%d", names[i], way);
-            all &= check(name, &world.scene);
+            assert_true(check(formatted("%s-%d", names[i], way), &world.scene));
         }
-    }
-    assert_true(all);
 }
 
 /* Whose front is on the side that its normals are not on, if it has a back. */
@@ -178,55 +165,44 @@ TEST_WITH(0, clockwise_meshes_are_lit_as_the_others, open_meshes, close_meshes)
 {
     const Mesh *const meshes[] = {&pipe_mesh, &pot, &coarse_ring};
     const Mat4 turned = mat4_rotate(-65, (Vec3){1, 0.3, 0.2});
-    bool all = true;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 3; i++)
         for (int way = 0; way < 8; way++) {
-            char name[64];
             make_world(meshes[i]);
             turn_first(way & 1 ? mat4_product(turned, mat4_scale((Vec3){-1, 0.9, 1})) : turned);
             world.objects[0].clockwise = true;
             world.objects[0].two_sided = way & 2;
             if (way & 4)
                 world.lights[0].position = (Vec3){0.3, 0.1, 0.2};
-            snprintf(name, sizeof name, "clockwise-%d-%d", i, way);
-            all &= check(name, &world.scene);
+            assert_true(check(formatted("clockwise-%d-%d", i, way), &world.scene));
         }
-    }
-    assert_true(all);
 }
 
 TEST_WITH(0, eyes_and_lights_may_be_anywhere, open_meshes, close_meshes)
 {
-    bool all = true;
-    make_world(&box); /* cut by the near plane, light behind the eye */
-    turn_first(mat4_translate((Vec3){0.9, 2.2, 4.2}));
-    world.lights[0].position = (Vec3){2, 5, 8};
-    all &= check("occluder through the near plane", &world.scene);
-
-    make_world(&box);
-    world.lights[0].position = (Vec3){0.1, 0.2, -0.1};
-    all &= check("light in a box", &world.scene);
-
-    make_world(&coarse_ring);
-    world.lights[0].position = (Vec3){0.82, 0.02, 0.03};
-    all &= check("light in a ring", &world.scene);
-
-    make_world(&box);
-    world.lights[0].position = (Vec3){0.3, 0.8, 0.2};
-    all &= check("light on a box", &world.scene);
-
-    make_world(&coarse_ring);
-    world.lights[0].kind = LIGHT_DIRECTIONAL;
-    world.lights[0].direction = (Vec3){1, 0.02, 0.3};
-    all &= check("grazing light", &world.scene);
-
-    make_world(&pot);
-    world.lights[0].kind = LIGHT_SPOT;
-    world.lights[0].direction = (Vec3){-0.8, -3.2, -1.2};
-    world.lights[0].cutoff = 14;
-    all &= check("cone's edge in a shadow", &world.scene);
-
-    assert_true(all);
+    static const struct {
+        const char *name;
+        const Mesh *mesh;
+        LightKind kind;
+        Vec3 place, direction;
+    } cases[] = {
+        {"occluder through the near plane", &box, LIGHT_POINT, {2, 5, 8}, {0, 0, 0}},
+        {"light in a box", &box, LIGHT_POINT, {0.1, 0.2, -0.1}, {0, 0, 0}},
+        {"light in a ring", &coarse_ring, LIGHT_POINT, {0.82, 0.02, 0.03}, {0, 0, 0}},
+        {"light on a box", &box, LIGHT_POINT, {0.3, 0.8, 0.2}, {0, 0, 0}},
+        {"grazing light", &coarse_ring, LIGHT_DIRECTIONAL, {0, 0, 0}, {1, 0.02, 0.3}},
+        {"cone's edge in a shadow", &pot, LIGHT_SPOT, {1.1, 3.2, 1.7}, {-0.8, -3.2, -1.2}},
+    };
+    for (int i = 0; i < 6; i++) {
+        Light *light = &world.lights[0];
+        make_world(cases[i].mesh);
+        if (i == 0) /* cut by the near plane, light behind the eye */
+            turn_first(mat4_translate((Vec3){0.9, 2.2, 4.2}));
+        light->kind = cases[i].kind;
+        light->position = cases[i].place;
+        light->direction = cases[i].direction;
+        light->cutoff = 14;
+        assert_true(check(cases[i].name, &world.scene));
+    }
 }
 
 /* Of a triangle: a corner, the middle of a side, its own middle, or a place in its plane. */
@@ -272,27 +248,23 @@ TEST_WITH(0, lights_may_touch_what_throws_the_shadow, open_meshes, close_meshes)
     static const char *const names[] = {"ball", "coarse ring", "open pipe",
                                         "box",  "teapot",      "random triangles"};
     const Mat4 turned = mat4_rotate(-65, (Vec3){1, 0.3, 0.2});
-    bool all = true;
     for (int i = 0; i < 6; i++) {
         const int way_count = meshes[i] == &pot ? 1 : 4; /* its rims are as thin as rounding */
-        for (int way = 0; way < way_count; way++) {
+        for (int way = 0; way < way_count; way++)
             for (int turn = 0; turn < 2; turn++) {
-                char name[64];
                 const size_t triangle =
                     (size_t)random_below(&random, (int)(meshes[i]->index_count / 3));
                 make_world(meshes[i]);
                 turn_first(turn ? turned : mat4_identity());
                 world.lights[0].position = mat4_transform_point(world.objects[0].world_from_object,
                                                                 touching(meshes[i], triangle, way));
-                snprintf(name, sizeof name, "light %s of the %s, %zu", ways[way], names[i],
-                         triangle);
-                all &= check_wrong(name, &world.scene, 100);
+                assert_true(
+                    check_wrong(formatted("light %s of the %s, %zu", ways[way], names[i], triangle),
+                                &world.scene, 100));
             }
-        }
     }
     lighting_forget(lighting, NULL);
     mesh_close(&soup);
-    assert_true(all);
 }
 
 /* Of all vertices the farthest along an axis, one way or the other. */
@@ -310,17 +282,14 @@ static Vec3 end_of(const Mesh *mesh, int axis, bool low)
 /* Rounding decides whether such a light is within the mesh's box. */
 TEST_WITH(0, lights_may_touch_an_end_of_what_throws_the_shadow, open_meshes, close_meshes)
 {
-    bool all = true;
     for (int i = 0; i < 12; i++) {
-        char name[64];
         make_world(&coarse_ring);
         turn_first(mat4_rotate(23 * i, (Vec3){1, 0.3, 0.2}));
         world.lights[0].position = mat4_transform_point(world.objects[0].world_from_object,
                                                         end_of(&coarse_ring, i % 3, i % 2));
-        snprintf(name, sizeof name, "light at an end of the coarse ring, %d", i);
-        all &= check_wrong(name, &world.scene, 100);
+        assert_true(
+            check_wrong(formatted("light at an end of the coarse ring, %d", i), &world.scene, 100));
     }
-    assert_true(all);
 }
 
 /* In front of a triangle or behind it, so near that it fills almost half of all directions: its
@@ -332,9 +301,7 @@ TEST_WITH(0, lights_may_be_close_before_what_throws_the_shadow, open_meshes, clo
     static const char *const names[] = {"teapot", "teapot", "open pipe", "box"};
     Random random = {testing_seed(20261124)};
     const int count = testing_part(4 * 60, 12);
-    bool all = true;
     for (int i = 0; i < count; i++) {
-        char name[96];
         const Mesh *mesh = meshes[i % 4];
         const size_t triangle = (size_t)random_below(&random, (int)(mesh->index_count / 3));
         const MeshVertex *vertex = &mesh->vertices[mesh->indices[3 * triangle]];
@@ -344,35 +311,29 @@ TEST_WITH(0, lights_may_be_close_before_what_throws_the_shadow, open_meshes, clo
         make_world(mesh);
         world.lights[0].position =
             vec3_add(touching(mesh, triangle, 2), vec3_scale(normal, before));
-        snprintf(name, sizeof name, "light %.2g before %s, %zu", before, names[i % 4], triangle);
-        all &= check(name, &world.scene);
+        assert_true(check(formatted("light %.2g before %s, %zu", before, names[i % 4], triangle),
+                          &world.scene));
     }
-    assert_true(all);
 }
 
 TEST_WITH(0, the_scale_and_the_place_do_not_matter, open_meshes, close_meshes)
 {
     static const double scales[] = {1e-6, 1e6, 1};
-    bool all = true;
     for (int i = 0; i < 3; i++) {
-        char name[64];
         make_world(&pot);
         move_world(scales[i], i == 2 ? (Vec3){1e6, -2e6, 1e6} : (Vec3){0, 0, 0});
-        snprintf(name, sizeof name, "scale %g%s", scales[i], i == 2 ? ", far away" : "");
-        all &= check(name, &world.scene);
+        assert_true(
+            check(formatted("scale %g%s", scales[i], i == 2 ? ", far away" : ""), &world.scene));
     }
-    assert_true(all);
 }
 
 TEST_WITH(0, light_at_the_vertices_is_shadowed_at_the_fragments, open_meshes, close_meshes)
 {
-    bool all = true;
     for (int kind = INTERPOLATION_GOURAUD; kind <= INTERPOLATION_CONSTANT; kind++) {
         make_world(&coarse_ring);
         world.scene.interpolation = (Interpolation)kind;
-        all &= check(INTERPOLATION_NAMES[kind], &world.scene);
+        assert_true(check(INTERPOLATION_NAMES[kind], &world.scene));
     }
-    assert_true(all);
 }
 
 /* What is left out draws nothing: with it the picture is the same. */
@@ -475,9 +436,7 @@ TEST(several_samples_of_a_pixel_are_supersampled)
 TEST_WITH(0, shadows_are_exact_on_what_is_flat, open_meshes, close_meshes)
 {
     static const Vec3 lights[] = {{1.1, 3.2, 1.7}, {1.4, 0.4, 0.5}, {1.3, -0.5, 0.3}, {3, 0.2, 3}};
-    bool all = true;
     for (int i = 0; i < 8; i++) {
-        char name[64];
         make_world(i < 4 ? &ball : &plane);
         world.objects[0].flat = i >= 4;
         turn_first(mat4_product(mat4_translate((Vec3){0, i < 4 ? 0 : -0.9, 0}),
@@ -487,14 +446,12 @@ TEST_WITH(0, shadows_are_exact_on_what_is_flat, open_meshes, close_meshes)
             mat4_product(mat4_translate((Vec3){0, 1, -1.6}), mat4_scale((Vec3){4, 4, 4}));
         world.scene.object_count = 3;
         world.lights[0].position = lights[i % 4];
-        snprintf(name, sizeof name, "flat-%d", i);
-        all &= check(name, &world.scene);
+        assert_true(check(formatted("flat-%d", i), &world.scene));
     }
     make_world(&ball);
     world.lights[0].kind = LIGHT_DIRECTIONAL;
     world.lights[0].direction = (Vec3){1.1, 1.2, 1.7};
-    all &= check("flat-directional", &world.scene);
-    assert_true(all);
+    assert_true(check("flat-directional", &world.scene));
 }
 
 /* Where two casters overlap nothing is darkened twice, and eight lights have their own. */

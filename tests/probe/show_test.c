@@ -9,13 +9,13 @@
 
 enum { SIDE = 40, PIXELS = SIDE * SIDE };
 
-static const char VERTEX[] = "attribute vec2 a_Place;\n"
-                             "varying vec2 v_Place;\n"
-                             "void main() {\n"
-                             "    vec4 twice = vec4(2.0 * a_Place, 0.0, 1.0);\n"
-                             "    v_Place = a_Place;\n"
-                             "    gl_Position = vec4(a_Place, 0.0, 1.0);\n"
-                             "}\n";
+static const char *vertex = "attribute vec2 a_Place;\n"
+                            "varying vec2 v_Place;\n"
+                            "void main() {\n"
+                            "    vec4 twice = vec4(2.0 * a_Place, 0.0, 1.0);\n"
+                            "    v_Place = a_Place;\n"
+                            "    gl_Position = vec4(a_Place, 0.0, 1.0);\n"
+                            "}\n";
 
 /* Draws the square from -1 to 1; valid until the next. */
 static const Capture *capture_of(const char *fragment)
@@ -30,7 +30,7 @@ static const Capture *capture_of(const char *fragment)
                                      .size = 2};
     static CaptureDraw draw;
     static Capture capture = {.draws = &draw, .draw_count = 1};
-    draw = (CaptureDraw){.sources = {VERTEX, fragment},
+    draw = (CaptureDraw){.sources = {vertex, fragment},
                          .mode = GL_TRIANGLE_STRIP,
                          .vertex_count = 4,
                          .vertices = vertices,
@@ -104,6 +104,62 @@ TEST(a_spheres_normals_are_directions)
             for (int c = 0; c < 3; c++) /* half a step, and the error of a float */
                 assert_true(fabs(at(&picture, i)[c] - 255 * (0.5 + 0.5 * normal[c])) < 0.5001);
     }
+}
+
+/* Of the first pixel, which is drawn red. */
+static char *verdict_of(const char *fragment)
+{
+    CLOSED(probe_close) Probe probe;
+    const ProbeQuestion question = {
+        .capture = capture_of(fragment), .driver = &GLSL_LLVMPIPE, .height = SIDE, .drawn = {255}};
+    SUCCEEDS(probe_open(&probe, &question, message));
+    return probe_verdict(&probe);
+}
+
+/* In so many pixels, the first of them. */
+static void undefined(const char *fragment, int count)
+{
+    static const char *const SAID[] = {"undefined, in orange: %d pixels",
+                                       "%d pixels, white: the colour is undefined"};
+    for (int i = 0; i < 2; i++) {
+        CLOSED(image_close) Image picture = {.width = 0};
+        char said[80], *legend = paint(fragment, i ? "blame" : "error", &picture);
+        snprintf(said, sizeof said, SAID[i], count);
+        assert_non_null(strstr(legend, said));
+        free(legend);
+    }
+    char *text = verdict_of(fragment);
+    assert_non_null(strstr(text, "verdict: the colour is undefined\n"));
+    free(text);
+}
+
+TEST(what_is_undefined_or_not_as_drawn_is_not_called_right)
+{
+    int outside = 0; /* the circle */
+    for (int i = 0; i < PIXELS; i++) {
+        double place[2];
+        place_of(i, place);
+        outside += place[0] * place[0] + place[1] * place[1] > 1;
+    }
+    undefined(SPHERE, outside);
+    undefined("precision highp float; void main() { float k; gl_FragColor = vec4(k); }", PIXELS);
+    undefined("precision highp float; void main() { float k = 1.0; }", PIXELS);
+    undefined("void main() { gl_FragColor = vec4(0.0); while (true) gl_FragColor.r = 0.1; }",
+              PIXELS);
+    char *text = verdict_of("void main() { gl_FragColor = vec4(0.0); }");
+    assert_non_null(strstr(text, "verdict: not what is drawn; as computed, 0.00 steps off: "));
+    free(text);
+}
+
+TEST(a_vertex_that_reads_what_has_no_value_is_undefined)
+{
+    const char *const usual = vertex;
+    vertex = "attribute vec2 a_Place; varying float v_Light; float lit() { float k; return k; }\n"
+             "void main() { v_Light = lit(); gl_Position = vec4(a_Place, 0.0, 1.0); }";
+    undefined("precision highp float; varying float v_Light;\n"
+              "void main() { gl_FragColor = vec4(v_Light); }",
+              PIXELS);
+    vertex = usual;
 }
 
 TEST(a_scalar_has_a_scale_and_negative_numbers_a_colour)
@@ -244,6 +300,73 @@ TEST(the_line_that_loses_digits_is_blamed)
             assert_true(is(at(&picture, i), 230, 159, 0));
         if (place[0] < -0.55) /* black whatever the digits */
             assert_true(is(at(&picture, i), 64, 64, 64));
+    }
+}
+
+TEST(twelve_lines_have_a_colour_of_their_own)
+{
+    enum { LINES = 13 };
+    CLOSED(image_close) Image picture = {.width = 0};
+    static char text[LINES * 80 + 200];
+    int length = snprintf(text, sizeof text,
+                          "precision mediump float;\nvarying vec2 v_Place;\n"
+                          "void main() {\n    float far = 0.0;\n");
+    for (int i = 0; i < LINES; i++)
+        length += snprintf(text + length, sizeof text - (size_t)length,
+                           "if (v_Place.x >= %.2f) far = v_Place.x + 17.0; // %d\n",
+                           i ? -0.84 + 0.15 * i : -1.0, i);
+    snprintf(text + length, sizeof text - (size_t)length,
+             "    gl_FragColor = vec4(0.5 * (18.0 - far));\n}\n");
+    char *legend = paint(text, "blame", &picture);
+    int named = 0, others = 0;
+    for (const char *at = legend; (at = strstr(at, " pixels, ")); at += 9) {
+        named++;
+        others += strncmp(at + 9, "light grey, as all further: ", 28) == 0;
+    }
+    assert_int_equal(named, LINES + 1);
+    assert_int_equal(others, 1);
+    free(legend);
+}
+
+TEST(a_loops_int_is_not_blamed_for_what_a_function_is_given)
+{
+    CLOSED(image_close) Image picture = {.width = 0};
+    char *legend = paint("#line 1 0\n"
+                         "precision mediump float;\n"
+                         "varying vec2 v_Place;\n"
+                         "float twice(float a) {\n"
+                         "    for (int i = 0; i < 1; i++) a *= 2.0;\n"
+                         "    return a;\n"
+                         "}\n"
+                         "void main() {\n"
+                         "    float x = twice(v_Place.x + 17.0) - 34.0;\n"
+                         "    gl_FragColor = vec4(x);\n"
+                         "}\n",
+                         "blame", &picture);
+    assert_non_null(strstr(legend, "orange: line 8: float x = "));
+    assert_null(strstr(legend, "line 4"));
+    free(legend);
+}
+
+TEST(a_condition_and_a_return_are_blamed_for_what_they_round)
+{
+    static const struct {
+        const char *text, *said;
+    } CASES[] = {{"precision mediump float;\nvarying vec2 v_Place;\n"
+                  "void main() {\nfloat x = 0.0;\n"
+                  "if (v_Place.x + 64.0 - 64.0 > 0.0124)\nx = 1.0;\ngl_FragColor = vec4(x);\n}\n",
+                  "line 5: if (v_Place.x"},
+                 {"precision mediump float;\nvarying vec2 v_Place;\n"
+                  "float moved() {\nreturn v_Place.x + 17.0;\n}\n"
+                  "void main() {\ngl_FragColor = vec4(moved() - 17.0);\n}\n",
+                  "line 4: return v_Place.x"}};
+    for (size_t i = 0; i < sizeof CASES / sizeof *CASES; i++) {
+        CLOSED(image_close) Image picture = {.width = 0};
+        char text[400];
+        snprintf(text, sizeof text, "#line 1 0\n%s", CASES[i].text);
+        char *legend = paint(text, "blame", &picture);
+        assert_non_null(strstr(legend, CASES[i].said));
+        free(legend);
     }
 }
 

@@ -90,6 +90,7 @@ class Surveys(Study):
             self.wrong(2, f"--cameras {bad}: must be ranges", "--prove", "sphere", "--cameras", bad)
         self.wrong(2, "--prove: names its scene", "--prove", "sphere", "--scene", "cube")
 
+    @base.in_long_form
     def test_a_scene_gives_table_rows_plots_and_sheets(self):
         text = self.survey()
         self.assertLessEqual(text.count("\n"), 12)
@@ -160,6 +161,7 @@ class Surveys(Study):
             self.assertEqual(halves.pop(), 9 * [None], name)  # the gap below
             yield file[0], halves
 
+    @base.in_long_form
     def test_a_terminal_shows_the_pages_pictures(self):
         """Each pixel has the lightest colour of the part of the page's picture that it stands for: in 24 bits that colour;
         of the 256, one of a cube whose values are at most 95 apart, so that rounding is off by 48 at most."""
@@ -212,6 +214,7 @@ class Surveys(Study):
         self.wrong(1, "none.glb: No such file", "--scene-file", "none.glb", *QUICK)
         self.wrong(2, "--scene and --scene-file: one", "--scene-file", "own.gltf", "--scene", "cube", *QUICK)
 
+    @base.in_long_form
     def test_shadows_are_measured_by_each_way(self):
         self.survey()
         # Of each way and size: the error near edges, of all pixels, pixels that are wrong, times.
@@ -231,6 +234,7 @@ class Surveys(Study):
             for word in ("map", "2x2", "volumes", "4096"):
                 self.assertIn(word, plot, name)
 
+    @base.in_long_form
     def test_the_page_has_sentence_and_plots(self):
         self.survey()
         page = self.read("accuracy/index.html").decode()
@@ -243,6 +247,7 @@ class Surveys(Study):
         for name in re.findall(r'(?:href|src)="([^"]+)"', page):
             self.assertTrue(os.path.exists(self.path("accuracy/" + name)), name)
 
+    @base.in_long_form
     def test_plots_can_be_read_and_show_pictures(self):
         self.survey()
         for name in os.listdir(self.path("accuracy")):
@@ -277,6 +282,7 @@ class Surveys(Study):
         self.assertNotRegex(table.split("\n\nmodel")[0], r"\n[*=] ")
         self.assertEqual([name for name in os.listdir(self.path("accuracy")) if "-pin-" in name], [])
 
+    @base.in_long_form
     def test_two_folders_are_compared_row_by_row(self):
         self.survey()
         text = self.read("accuracy/results.csv").decode()
@@ -385,7 +391,7 @@ class Surveys(Study):
         self.make("parts/results-1-of-2.csv", head + usual + b"".join(rows[1::2]))
         second = [doubled(row) for row in (usual, *rows[0::2])]
         self.make("parts/results-2-of-2.csv", head + b"".join(second[:-1]))
-        self.wrong(1, "parts: 1 rows of its 2 parts are missing; run them to the end", *draw)
+        self.wrong(1, "parts: 1 rows of its part 2/2 are missing; run it to the end", *draw)
         self.make("parts/results-2-of-2.csv", head + b"".join(second) + second[-1][:50])
         os.mkdir(self.path("bin"))  # without gnuplot
         result = self.run_it(*draw, program="accuracy",
@@ -491,6 +497,7 @@ class Surveys(Study):
 
 
 class Choices(Study):
+    @base.in_long_form
     def test_the_cheapest_within_a_budget_is_named_and_confirmed(self):
         text = self.accuracy("--scene", "sphere", "--budget", "8", *QUICK)
         busy = r"the machine is busy: .*; none is compared\nmost usual: "
@@ -516,6 +523,7 @@ class Choices(Study):
         self.says(1, r"no setting of sphere is so fast; the best takes", "--scene", "sphere",
                   "--time-budget", "0", *QUICK, program="accuracy", environment=self.own)
 
+    @base.in_long_form
     def test_error_says_what_it_leaves_away(self):
         for error in ("1", "30"):
             self.says(0, rf"view 0: .*; error [\d.]+ of {error} allowed inside objects "
@@ -548,6 +556,7 @@ class Choices(Study):
                    for way in ("map:16", "volumes", "map:16")]
         self.assertEqual(["from the cache" in choice for choice in choices], [False, False, True])
 
+    @base.in_long_form
     def test_error_draws_the_best_where_it_cannot_be_kept(self):
         self.says(0, r"^ShadingModels: --error 0.001 is unreachable: the best is 0\.\d+, inside "
                   r"objects; drawing that\n$", "--error", "0.001", "-s", "40x40",

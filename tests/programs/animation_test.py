@@ -165,6 +165,7 @@ class Formats(Animations):
                 else:
                     self.assertEqual(got, rgb)
 
+    @base.in_long_form
     def test_a_gif_of_thousands_of_colors(self):
         """Of which each picture has 256; a cube of 6 levels per channel would be 15 steps off."""
         draw = "-s", "240x240", "-n", "2"
@@ -186,6 +187,7 @@ class Formats(Animations):
                     self.draw("a." + kind, count, "-t", "0.5", "--fps", "10", size=size)
                     self.check_pixels(kind, "a." + kind, wanted, size)
 
+    @base.in_long_form
     def test_every_format_has_the_times(self):
         count = 40  # enough for a delay of 33 instead of 33 1/3 hundredths to add up
         for rate in RATES:
@@ -218,6 +220,7 @@ class Formats(Animations):
                     if kind == "gif" or last and kind == "mp4":
                         self.assertEqual(begins[-1] + last, wanted[-1])
 
+    @base.in_long_form
     def test_loops_are_endless(self):
         for kind in ("gif", "webp", "apng"):
             self.draw("a." + kind, 3)
@@ -247,6 +250,7 @@ class Formats(Animations):
             self.draw("b." + kind, 5)
             self.assertEqual(self.read("a." + kind), self.read("b." + kind), kind)
 
+    @base.in_long_form
     def test_apng_is_compressed_as_told(self):
         for level in "09":
             self.draw(level + ".apng", 3, "--compress", level)
@@ -312,6 +316,7 @@ class Streams(Animations):
     def stream(self, kind, count, *arguments, size=(40, 30)):
         return self.draw("-", count, "--format", kind, *arguments, size=size)
 
+    @base.in_long_form
     def test_rgb_is_the_pictures_and_nothing_else(self):
         for size, count in (((40, 30), 4), ((33, 17), 3), ((1, 1), 1)):
             self.assertEqual(self.stream("rgb", count, size=size),
@@ -339,6 +344,7 @@ class Streams(Animations):
             pictures.append(picture)
         return header.decode(), pictures
 
+    @base.in_long_form
     def test_y4m_is_what_it_says(self):
         for size, count in (((40, 30), 4), ((33, 17), 2), ((1, 1), 1)):
             wanted = self.numbered(count, size=size)
@@ -375,6 +381,7 @@ class Streams(Animations):
             self.refused(2, "is a terminal", "-o", "-", "--format", kind, stdout=theirs)
         os.close(theirs)
 
+    @base.in_long_form
     def test_a_reader_that_goes_away_ends_it_quietly(self):
         for kind in ("y4m", "rgb"):
             for size in (0, 1, 5000, 100000):
@@ -394,6 +401,7 @@ class Streams(Animations):
                     self.assertLess(used, 50)
         self.assertEqual(self.everything(), {})
 
+    @base.in_long_form
     def test_a_stream_that_does_not_arrive_is_a_failure(self):
         for kind in ("y4m", "rgb"):
             for shell in (">&-", ">/dev/full"):
@@ -408,6 +416,7 @@ class Encoders(Animations):
         os.chmod(self.path("bin/ffmpeg"), 0o755)
         return {"PATH": self.path("bin") + ":" + os.environ["PATH"]}
 
+    @base.in_long_form
     def test_without_ffmpeg_one_line_names_the_package(self):
         self.make("a.mp4")
         for kind in BY_FFMPEG:
@@ -420,6 +429,7 @@ class Encoders(Animations):
         text = self.good("--doctor", environment={"PATH": self.path("empty")}).decode()
         self.assertRegex(text, r"ffmpeg +missing, gives .*: install the package ffmpeg\n")
 
+    @base.in_long_form
     def test_an_ffmpeg_that_fails_is_said_in_one_line(self):
         for script, said in (
                 ("head -c 20000 >/dev/null; echo before >&2; echo the last line >&2; exit 1",
@@ -444,6 +454,7 @@ class Encoders(Animations):
                 self.refused(1, "^LightedCube: a.webm: .*" + said, "-n", "20", "-o", "a.webm",
                              "-s", "100x100", environment=environment)
 
+    @base.in_long_form
     def test_a_real_refusal_is_said_in_one_line(self):
         environment = self.fake(f"exec {shutil.which('ffmpeg')} -i no-such-file a.webm\n")
         self.refused(1, r"^LightedCube: a\.webp: cannot write: ffmpeg: .*: No such file",
@@ -460,6 +471,7 @@ class Encoders(Animations):
                 pass
         return found
 
+    @base.in_long_form
     def test_ffmpeg_does_not_outlive_the_program(self):
         for number in (signal.SIGTERM, signal.SIGKILL):
             with self.start("-n", "1000000", "-o", "a.mp4") as process:
@@ -520,6 +532,7 @@ class Interrupted(Animations):
             for left in os.listdir(self.folder):
                 os.remove(self.path(left))
 
+    @base.in_long_form
     def test_ignored_signals_stay_ignored(self):
         """As under nohup and in a shell's background."""
         for number in (signal.SIGINT, signal.SIGHUP):
@@ -552,6 +565,7 @@ class FullDisks(Animations):
         for path, content in after.items():
             self.assertEqual(content, before[path])
 
+    @base.in_long_form
     def test_of_an_animation_nothing_stays(self):
         for i, kind in enumerate(FILES):
             for there in (False, True) if base.LONG else (i % 2 > 0,):
@@ -562,6 +576,7 @@ class FullDisks(Animations):
                              "-o", "a." + kind)
                 self.assertEqual(self.everything(), before)
 
+    @base.in_long_form
     def test_a_disk_that_is_full_before_the_end(self):
         """A file system with fewer pages than the animation has, and with just enough."""
         script = ('mount -t tmpfs -o size=$1k small small || exit 99; shift\n'

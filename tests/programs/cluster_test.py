@@ -196,7 +196,7 @@ class OneMachine(Cluster):
         os.chmod(self.path("bin/LightedCube"), 0o755)
         draw = ("3", "--parallel", "--", "bin/LightedCube", "-s", "20x20", "-n", "6")
         self.assertRegex(self.end_of(self.cluster(*draw, "-o", "a%d.png")),
-                         "\n.*: part 2 of 3 failed: .*; trying again: 2\n.*: 3 of 3 parts\n$")
+                         "\n.*: part 2 of 3 failed: .*; trying again: 2\n.*: 3 of 3 parts, 6 of 6 pictures\n$")
         self.assertEqual(sum(name.startswith("a") for name in os.listdir(self.folder)), 6)
         self.assertRegex(self.end_of(self.cluster(*draw, "-o", "a%d.png", "--shaders", "none"), 1),
                          "missing after 3 tries: 1 2 3; part 1 of 3 failed: .*: none: no such shader")

@@ -64,10 +64,10 @@ SAMPLE = "LIGHTING_TEST_SAMPLE" in os.environ  # as tests/systems/run --sample s
 
 
 def step(number):
-    """Of many similar cases: the short form takes every `2 * number`-th, the long one every LIGHTING_TEST_LONG-th at
-    least, which tests/run sets; AddressSanitizer, which needs code rather than cases, and another system an eighth of the
+    """Of many similar cases: the short form takes every `4 * number`-th, the long one every LIGHTING_TEST_LONG-th at
+    least, which tests/run sets; AddressSanitizer, which needs code rather than cases, and another system a quarter of the
     short one's."""
-    return min(LONG, 2 * number) if LONG else 16 * number if SANITIZED or SAMPLE else 2 * number
+    return min(LONG, 2 * number) if LONG else 16 * number if SANITIZED or SAMPLE else 4 * number
 
 
 def in_long_form(test):
@@ -331,6 +331,7 @@ class Options(Case):
             png = self.drawn("-s", f"{width}x{height}")
             self.assertEqual((png.width, png.height), (width, height))
 
+    @in_long_form
     def test_texts_say_what_the_picture_is(self):
         texts = self.drawn("--size=30x20", "-t", "1.5", "--samples", "4", "--precision", "highp",
                            "--alpha", program="PointLightedCube_animation").texts
@@ -347,6 +348,7 @@ class Options(Case):
         self.assertEqual(clear.at(0, 0)[3], 0)
         self.assertEqual(clear.at(20, 20), (*opaque.at(20, 20), 255))
 
+    @in_long_form
     def test_samples_smooth_the_edges(self):
         colors = []
         for samples in ("0", "4"):
@@ -354,6 +356,7 @@ class Options(Case):
             colors.append(len({png.at(x, y) for x in range(400) for y in range(400)}))
         self.assertGreater(colors[1], 2 * colors[0])  # a cube has few colours, its edges have many
 
+    @in_long_form
     def test_frames_are_the_pictures_of_their_times(self):
         move = {"program": "LightedCube_animation"}
         self.good(*SMALL, "--frames", "5", "--fps", "2", "-t", "0.25", "-o", "f%02d.png", **move)
@@ -375,6 +378,7 @@ class Options(Case):
             self.assertEqual(self.read("a.png"), self.read("t.png"))
             self.assertEqual(self.png("a.png").pixels != self.png("0.png").pixels, moves)
 
+    @in_long_form
     def test_compressing_changes_the_size_alone(self):
         for level in "09":
             self.good("--compress", level, "-o", level + ".png")
@@ -400,6 +404,7 @@ class Options(Case):
             for word in ("backend: egl", "renderer: ", "40x40", "precision", " ms"):
                 self.assertIn(word, result.stderr.decode())
 
+    @in_long_form
     def test_a_backend_can_be_named(self):
         self.good(*SMALL, "-o", "a.png")
         self.good(*SMALL, "-b", "egl", "-o", "b.png")
@@ -428,6 +433,7 @@ class Options(Case):
                 self.assertLessEqual(sum(d > 1 for d in apart), len(apart) // 500,
                                      (program, precision))
 
+    @in_long_form
     def test_the_doctor_says_what_works(self):
         text = self.good("--doctor").decode()
         self.assertRegex(text, r"(?s)egl.*works.*renderer.*This machine can draw\.\n$")
@@ -474,6 +480,7 @@ class Options(Case):
             else:
                 self.assertEqual(said, there[name])
 
+    @in_long_form
     def test_the_doctor_tells_what_is_not_built_yet_from_what_is_missing(self):
         """A copy of the build folder has the program, but no module except its own."""
         os.makedirs(self.path("build/examples"))
@@ -519,10 +526,12 @@ class Options(Case):
         for arguments in (), ("-t", "0"):
             self.says(1, "^LightedCube: EGL: no platform gives .*: unset it", *arguments, environment=NO_DRIVER)
 
+    @in_long_form
     def test_verbose_reports_programs_once(self):
         result = self.says(0, "opening", "-v", "-n", "4", "-s", "40", "-o", "p%d.png", program="LightTypes")
         self.assertEqual(result.stderr.decode().count("programs so far"), 1)
 
+    @in_long_form
     def test_raw_pictures_are_drawn_by_threads(self):
         """Nothing else needs the processor; encoders would. The driver names its threads."""
         def threads(*arguments):
@@ -545,6 +554,7 @@ class Options(Case):
             self.run_it("-s", "8", "-o", "pipe")
             self.assertEqual(Png(reader.stdout.read()).pixels, self.drawn("-s", "8x8").pixels)
 
+    @in_long_form
     def test_a_cache_of_pipes_is_not_waited_for(self):
         """Of what the programs keep, and Mesa, which opens each file that its index does not rule out."""
         for program in ("FourLights", *DIAGRAMS):
@@ -598,6 +608,7 @@ class Terminal(Case):
         return on_terminal([os.path.join(EXAMPLES, program), *arguments], cwd=self.folder,
                            env={**clean, "TERM": "xterm", **environment})
 
+    @in_long_form
     def test_what_was_written_is_said(self):
         for said, program, *arguments in (
                 ("wrote LightedCube.png, 40x40", "LightedCube"),
@@ -672,6 +683,7 @@ class Generated(Case):
         self.refused(2, "--lin: could be --linear-light or --linear", "--lin", program="LightTypes")
         self.refused(2, "^SpotLight: --save-scene x.glb: a scene is written as text; name a .gltf$", "--save-scene", "x.glb", program="SpotLight")
 
+    @in_long_form
     def test_all_have_the_options_of_help(self):
         for program in EVERY:
             names, letters = self.options(program)
@@ -812,6 +824,7 @@ class Outputs(Case):
             self.assertEqual((result.returncode, result.stdout), (1, b"LightedCube: cannot write exr: File too large\n"))
             self.assertEqual(self.everything(), {})
 
+    @in_long_form
     def test_links_and_pipes_are_written_through(self):
         self.make("target.png")
         os.symlink("target.png", self.path("link.png"))
@@ -847,6 +860,18 @@ class Outputs(Case):
         self.refused(1, "--show: a pixel of several samples", *SMALL, "--show", "error", "--samples", "4")
 
     @in_long_form
+    def test_a_loop_that_does_not_end_is_not_waited_for_at_each_pixel(self):
+        self.make("mine/LightedCube.frag", "precision mediump float;\nvarying vec4 v_Color;\nvoid main() {\n"
+                  "    gl_FragColor = v_Color;\n    while (true) gl_FragColor.r += 0.001;\n}\n")
+        for what in ("error", "blame", "v_Color"):
+            result = self.run_it("-s", "200x200", "--shaders", "mine", "--show", what, "-o", "a.png")
+            self.assertEqual(result.returncode, 0)
+            self.assertRegex(result.stderr.decode(), r"(^|\n)a loop does not end: .*\n.*" + what)
+        said = self.good("-s", "200x200", "--shaders", "mine", "--probe", "100,100").decode()
+        self.assertLess(said.count("\n"), 30)
+        self.assertIn("line 5: the loop does not end", said)
+
+    @in_long_form
     def test_a_picture_as_another_device_would_draw_it(self):
         """Exactly what the driver draws, if the device is this one; with two digits, something else."""
         with open(os.path.join(self.folder, "measured.json"), "w") as file:
@@ -867,6 +892,7 @@ class Outputs(Case):
                      "--arithmetic", "phone")
         self.refused(2, "--arithmetic half: makes one picture", *SMALL, "--arithmetic", "half", "--frames", "2", "-o", "a%d.png")
 
+    @in_long_form
     def test_mediump_of_nvidia_is_as_an_h200_drew_it(self):
         """Where the real picture is smooth, which leaves out edges, axes and the white point of the light: all but one of
         18,542 and 49,873 pixels are within one step, and 99.7% and 99.87% equal. With dot products in any other order or
@@ -906,6 +932,7 @@ class Outputs(Case):
         self.assertRegex(text, r"\ngroup\.glsl:\d+  float n_dot_l = dot\(normal, to_light\);\n +n_dot_l: ")
         self.refused(2, "--format json: is of --probe", "--format", "json")
 
+    @in_long_form
     def test_elements_of_an_array_have_their_numbers(self):
         """Of names up to 127 characters; a sanitizer says it where a longer one leaves its place."""
         program = "PointLightedCube_perFragment"
@@ -937,6 +964,7 @@ class Outputs(Case):
         self.assertIn("\nsRGB encoding: requested\n      lighting.frag:",
                       self.run_it("--explain", "-v", "--linear-light", program="PhongBlinn").stdout.decode())
 
+    @in_long_form
     def test_what_interpolation_changes_is_what_a_program_per_fragment_mends(self):
         """The next program of the lecture computes the same equation at each fragment."""
         for program in "PointLightedCube", "PointLightedSphere":
@@ -1013,6 +1041,7 @@ class Outputs(Case):
             self.good(*SMALL, *arguments, program=program, shell="| head -n 1")
         self.assertEqual(self.everything(), {})
 
+    @in_long_form
     def test_closed_streams_do_no_harm(self):
         self.good(*SMALL, "-o", "right.png")
         for shell in ("<&-", ">&-", "2>&-", "<&- >&- 2>&-"):
@@ -1023,6 +1052,7 @@ class Outputs(Case):
             for code, arguments in ((2, ("--bogus",)), (1, ("-o", "missing/a.png"))):
                 self.assertEqual(self.run_it(*arguments, shell=shell).returncode, code)
 
+    @in_long_form
     def test_programs_run_from_any_folder_and_under_any_name(self):
         os.makedirs(self.path("a b/h\u00e9"))
         self.good(*SMALL, "-o", self.path("a.png"), cwd="/")
@@ -1048,6 +1078,7 @@ class Outputs(Case):
             self.assertEqual(self.read("a.png"), drawn)
 
     @unittest.skipUnless(os.path.exists(MODULE), "built without OpenImageIO")
+    @in_long_form
     def test_other_formats(self):
         for extension, start in (("exr", b"\x76\x2f\x31\x01"), ("tif", b"II*\0"), ("webp", b"RIFF"),
                                  ("jpg", b"\xff\xd8\xff"), ("PNG", b"\x89PNG"))[::step(2)]:
@@ -1073,6 +1104,7 @@ class Outputs(Case):
         if home:  # "daemon", in /usr/sbin
             self.good(*SMALL, "-o", "-", user=home.pw_uid, group=home.pw_gid, extra_groups=[])
 
+    @in_long_form
     def test_captions_need_a_font_and_no_plugin(self):
         result = self.run_it("-o", "a.png", program="PhongBlinn",
                              environment={"LD_DEBUG": "files"})
@@ -1095,6 +1127,7 @@ class Shaders(Case):
         with open(os.path.join(self.lecture, name), encoding="utf-8") as file:
             return file.read()
 
+    @in_long_form
     def test_an_edited_shader_is_found_and_drawn(self):
         # Always 1, but no compiler knows, so that no variable becomes unused.
         red = ("precision mediump float;\nvarying vec4 v_Color;\nvoid main() {\n"
@@ -1117,12 +1150,14 @@ class Shaders(Case):
         self.refused(1, "^LightedCube: LIGHTING_SHADERS=nowhere: ",
                      environment={"LIGHTING_SHADERS": "nowhere"})
 
+    @in_long_form
     def test_a_folder_without_a_shader_of_the_program_is_said(self):
         self.make("mine/SpotLight.frag")
         for program in "LightedCube", "ShadingModels":
             self.says(0, r"^\w+: mine: ignored: no shader file of this program is "
                       r"there\n$", *SMALL, "--shaders", "mine", program=program)
 
+    @in_long_form
     def test_a_file_that_is_almost_one_of_the_program_is_said(self):
         for program, name, near in (
                 ("LightedCube", "LightedCube.frag", "lightedcube.frag"),
@@ -1167,6 +1202,7 @@ class Shaders(Case):
             self.make(mine, content)
             self.refused(1, said, "--shaders", "mine", lines=count)
 
+    @in_long_form
     def test_a_broken_shader_gets_a_hint(self):
         """In a teacher's words, beside the driver's."""
         for program, old, new, said in (
@@ -1194,6 +1230,7 @@ class Shaders(Case):
                 self.make(name, head + new + tail)
                 self.refused(1, said, "--shaders", "mine", lines=0, program=program)
 
+    @in_long_form
     def test_a_labs_unknown_variable_is_said_with_its_place(self):
         shutil.copytree(os.path.join(SOURCE, "examples/labs/lab06_phong"), self.path("mine"),
                         dirs_exist_ok=True)
@@ -1210,6 +1247,7 @@ class Shaders(Case):
         self.assertEqual((result.returncode, result.stderr.decode()), (0, warning + "\n"))
         return Png(result.stdout)
 
+    @in_long_form
     def test_each_variable_of_each_shader_can_become_unused(self):
         for program in PROGRAMS[::step(24)]:
             for name in (program + ".vert", program + ".frag"):
@@ -1230,6 +1268,7 @@ class Shaders(Case):
                     self.warned(f"mine/{name}:{line}: warning: {variable}s: {variable}?", program)
                     os.remove(self.path("mine", name))
 
+    @in_long_form
     def test_several_unused_variables_are_one_line(self):
         text = self.original("LightedCube.vert")
         self.make("mine/LightedCube.vert", text.replace("v_Color = vec4(diffuse, a_Color.a)",
@@ -1248,6 +1287,7 @@ class Shaders(Case):
         os.mkdir(self.path("mine/LightedCube.frag"))
         self.refused(1, "LightedCube.frag: is not a regular file", "--shaders", "mine")
 
+    @in_long_form
     def test_precision_changes_the_shader_and_hardly_the_picture(self):
         high, medium = (self.drawn(*SMALL, "--precision", name).pixels
                         for name in ("highp", "mediump"))
@@ -1256,6 +1296,7 @@ class Shaders(Case):
 
 
 class Scenes(Case):
+    @in_long_form
     def test_every_scene_draws_the_same_with_the_full_program(self):
         for program in SCENES[::step(9)]:
             with self.subTest(program=program):
@@ -1271,11 +1312,13 @@ class Scenes(Case):
                 # or the sign of a normal decides, a pixel may be on either side.
                 self.assertLess(sum(a > 1 for a in apart), 1e-4 * len(apart))
 
+    @in_long_form
     def test_the_full_program_without_a_light(self):
         self.good(*SMALL, "--lighting", "off", program="Shadows")
         self.good(*SMALL, "--lighting", "off", "--full", "-o", "full.png", program="Shadows")
         self.assertEqual(self.png("Shadows.png").pixels, self.png("full.png").pixels)
 
+    @in_long_form
     def test_every_scene_explains_itself_and_draws_nothing(self):
         for program in SCENES[::step(3)]:
             with self.subTest(program=program):
@@ -1288,6 +1331,7 @@ class Scenes(Case):
                 self.assertLess(text.count("\n"), 74)
                 self.assertLessEqual(max(map(len, text.splitlines())), 100)
 
+    @in_long_form
     def test_what_an_explanation_folds_is_in_the_verbose_one(self):
         for program in ("LightTypes", "FourLights", "ColoredLights")[::step(3)]:
             short = self.good("--explain", program=program).decode()
@@ -1304,6 +1348,7 @@ class Scenes(Case):
                     self.assertRegex(text, rf"(?m)^ *{re.escape(other)}$")
         self.assertEqual(self.everything(), {})
 
+    @in_long_form
     def test_how_shadows_are_drawn_is_explained(self):
         for program, arguments, line in (
                 ("Shadows", ("--shadows", "map:256"), r"light 0: map 0 of 1, 256x256: .* of 24 bits .*"),
@@ -1315,6 +1360,7 @@ class Scenes(Case):
                 text = self.run_it("--explain", *arguments, program=program).stdout.decode()
                 self.assertRegex(text, "(?m)^" + line + "$")
 
+    @in_long_form
     def test_the_precision_of_depth_is_explained(self):
         """Values next to each other, as the buffer has them, are so far apart in depth."""
         for distance in (1, 27):
@@ -1329,6 +1375,7 @@ class Scenes(Case):
                 next_to_it = 1 / (1 / near - value * (1 / near - 1 / far))
                 self.assertAlmostEqual(abs(next_to_it - at) / said, 1, delta=0.05)
 
+    @in_long_form
     def test_antialiasing_changes_edges_alone(self):
         for program in SCENES[1::step(9)]:
             with self.subTest(program=program):
@@ -1338,6 +1385,7 @@ class Scenes(Case):
                 # Edges, lines and the small spheres of a row are a few pixels in a hundred.
                 self.assertTrue(0 < apart < 0.06 * len(plain), apart / len(plain))
 
+    @in_long_form
     def test_each_option_of_a_scene_has_its_range(self):
         for program, said, *arguments in (
                 ("SpotLight", "0 to 90", "--cutoff", "91"),
@@ -1360,6 +1408,7 @@ class Scenes(Case):
                 ("LightedCube", "no such option", "--explain")):
             self.refused(2, f"^{program}: .*{said}", *arguments, program=program)
 
+    @in_long_form
     def test_options_change_the_picture(self):
         plain = {}
         for program, *arguments in (
@@ -1397,6 +1446,7 @@ class Scenes(Case):
                 changed = self.drawn(*size, *arguments, program=program).pixels
                 self.assertNotEqual(plain[program], changed)
 
+    @in_long_form
     def test_options_that_do_nothing_are_said(self):
         for program, unused, *arguments in (
                 ("Materials", "--diffuse --shininess", "--sheet=on", "--diffuse=1,0,0",
@@ -1428,6 +1478,7 @@ class Scenes(Case):
             if os.path.exists(os.path.join(EXAMPLES, program)):
                 self.assertNotRegex(self.good("--help", program=program), rb"[ \t]\n", program)
 
+    @in_long_form
     def test_terms_and_lights_that_are_not_there_are_said(self):
         has = "the scene has ambient, diffuse, specular"
         for program, said, terms in (
@@ -1441,6 +1492,7 @@ class Scenes(Case):
             self.refused(2, f"^FourLights: {option}: there is no light 4; the scene has lights 0 to 3",
                          option, "1,1,1,1/4,0,0,1", program="FourLights")
 
+    @in_long_form
     def test_the_lights_are_listed_with_their_numbers(self):
         """With --light-at and --light-color, of which a line says what can be given."""
         text = self.good("--explain", "--light-at", "1,-5,7,0.25", "--light-color", "2,1,0.5,0,0,0,1",
@@ -1455,6 +1507,7 @@ class Scenes(Case):
             self.refused(2, f"^FourLights: {option} 0,1: must be LIGHT,[^;]*, with LIGHT from 0 to 7",
                          option, "0,1", program="FourLights")
 
+    @in_long_form
     def test_the_lamps_follow_their_lights(self):
         """Only the lamps emit: one that is moved is drawn where it goes, in its light's color."""
         def drawn(*arguments):
@@ -1470,6 +1523,7 @@ class Scenes(Case):
         self.assertTrue(28 < middle < 36, middle)
         self.assertFalse(bright(drawn("--light-color", "1,0,0.5,0"), 0))
 
+    @in_long_form
     def test_captions_are_true_with_and_without_shadows(self):
         sheet = "-s", "900x600", "--sheet", "on"
         without = self.drawn(*sheet, "--shadows", "off", program="Shadows")
@@ -1480,6 +1534,7 @@ class Scenes(Case):
                  for costs in ("off", "operations")]
         self.assertEqual(*costs)
 
+    @in_long_form
     def test_shadows_that_fall_on_nothing_are_said(self):
         said = "SpotLight: --shadows: ignored: has no effect here\n"
         self.says(0, f"^{said}$", *SMALL, "--shadows", "volumes", "-o", "with.png", program="SpotLight")
@@ -1490,6 +1545,7 @@ class Scenes(Case):
                                     ("Shadows", "--shadows", "off"), ("Shadows", )):
             self.good(*SMALL, *arguments, program=program)
 
+    @in_long_form
     def test_clamp_dots_that_changes_nothing_is_said(self):
         """Only N.L of a light without shadows, whose diffuse light a surface reflects, is not clamped."""
         off = "--clamp-dots", "off"
@@ -1504,6 +1560,7 @@ class Scenes(Case):
                 self.assertNotEqual(self.drawn(*SMALL, *arguments, *off, program=program).pixels,
                                     self.drawn(*SMALL, *arguments, program=program).pixels)
 
+    @in_long_form
     def test_the_caption_of_a_difference_says_how_many_times_it_is_shown(self):
         """The captions differ where the pictures are the same: where there is no difference."""
         def drawn(gain):
@@ -1517,6 +1574,7 @@ class Scenes(Case):
                   min(i // 3 for row in rows for i in range(900) if row[i]) for rows in (single, times)]
         self.assertGreater(widths[1], widths[0] + 30)  # "difference", "4 x the difference"
 
+    @in_long_form
     def test_a_light_has_the_color_that_it_is_given(self):
         """As the option for the colors of all of them, in a scene with one."""
         of_all = "--light-diffuse", "1,0.5,0", "--light-specular", "0,0,1"
@@ -1528,18 +1586,21 @@ class Scenes(Case):
         self.assertEqual(both, self.drawn(*SMALL, "--light-diffuse", "1,0.5,0",
                                           "--light-specular", "1,0.5,0", program="Materials").pixels)
 
+    @in_long_form
     def test_a_named_material_can_be_changed_in_any_order(self):
         mixed = self.drawn("--material", "gold", "--diffuse", "0,0,1", program="Materials").pixels
         self.assertEqual(mixed, self.drawn("--diffuse", "0,0,1", "--material", "gold",
                                            program="Materials").pixels)
         self.assertNotEqual(mixed, self.drawn("--material", "gold", program="Materials").pixels)
 
+    @in_long_form
     def test_the_light_of_the_viewer_follows_the_camera(self):
         """A sphere looks the same from all sides; its mesh turns, by at most a few steps."""
         plain = self.drawn("--shape", "sphere", program="Materials").pixels
         behind = self.drawn("--shape", "sphere", "--orbit", "180,0", program="Materials").pixels
         self.assertLess(max(abs(a - b) for a, b in zip(plain, behind)), 8)
 
+    @in_long_form
     def test_every_distance_shows_the_scene(self):
         for distance in ("0.3", "3", "27")[::step(2)]:
             for program in ("ShadingModels", "Materials", "FourLights", "ShininessRow"):
@@ -1549,6 +1610,7 @@ class Scenes(Case):
 
 
 class Index(Case):
+    @in_long_form
     def test_every_command_of_the_index_draws_another_picture_than_without_its_options(self):
         """examples/README.md, where each section is shown; and no option is ignored."""
         with open(os.path.join(SOURCE, "examples/README.md")) as file:
@@ -1570,6 +1632,7 @@ class Reflections(Case):
     MODELS = ("phong", "blinn-phong")
     ONE = ("--interpolation", "phong", "--turning-light", "off")
 
+    @in_long_form
     def test_blinn_phong_saves_operations_only_if_light_and_viewer_are_at_infinity(self):
         """There L + V is one vector for all fragments, and R is not."""
         def operations(reflection, *more):
@@ -1588,6 +1651,7 @@ class Reflections(Case):
         for counted, told in zip((far[1], far[0], near[1], near[0]), page.groups()):
             self.assertEqual(counted, int(told))
 
+    @in_long_form
     def test_blinn_phongs_highlight_is_drawn_out_at_a_grazing_angle(self):
         """Across the view it is less than half as wide as Phong's, on the top of a cube."""
         widths = []
@@ -1606,6 +1670,7 @@ class Gallery(Case):
     def moved(self, program):
         return ["--time", "1"] if program.endswith("_animation") else []
 
+    @in_long_form
     def test_animations_have_moved_unless_the_time_is_given(self):
         """Else they look like the program before them."""
         names = "LightedCube", "LightedCube_animation"
@@ -1616,6 +1681,7 @@ class Gallery(Case):
         self.gallery(*names, *SMALL, "--part", "2/2", "-o", "part")
         self.assertEqual(self.png("part.parts/LightedCube_animation.png").texts["Time"], "1 s")
 
+    @in_long_form
     def test_every_picture_is_the_one_that_its_program_draws(self):
         self.assertEqual(self.gallery(*SMALL, "-o", "pictures"), b"pictures/index.html\n")
         self.assertEqual(sorted(os.listdir(self.path("pictures"))),
@@ -1632,6 +1698,7 @@ class Gallery(Case):
             said = " ".join([program, "--size 40x40", *smooth])
             self.assertIn(f"<code>examples/run {said}</code>", page)
 
+    @in_long_form
     def test_lines_and_markers_are_smooth_with_samples_alone(self):
         sharp = self.drawn(program="TwoSidedLighting")
         smooth = self.drawn("--samples", "4", program="TwoSidedLighting")
@@ -1644,6 +1711,7 @@ class Gallery(Case):
         edges = [b for a, b in marker if max(abs(i - j) for i, j in zip(a, b)) > 20]
         self.assertTrue(1 <= len(edges) <= 2, edges)
 
+    @in_long_form
     def test_the_page_has_the_commands_that_draw_its_pictures(self):
         # The second program has a size of its own.
         self.gallery("LightedCube", "ShininessRow", "--orbit", "30,-10", "--samples", "4",
@@ -1659,11 +1727,13 @@ class Gallery(Case):
         self.assertIn("<code>examples/run ShininessRow --size 400x400</code>",
                       self.read("gallery/index.html").decode())
 
+    @in_long_form
     def test_named_programs_are_drawn_into_the_default_folder(self):
         self.gallery("PointLightedCube", *SMALL, "LightedCube")
         self.assertEqual(sorted(os.listdir(self.path("gallery"))),
                          ["LightedCube.png", "PointLightedCube.png", "index.html"])
 
+    @in_long_form
     def test_the_lecture_is_nine_pictures_and_a_page(self):
         """In the lecture's order; also beside others that are named."""
         self.assertEqual(len(PROGRAMS), 9)
@@ -1776,6 +1846,7 @@ class Again(Case):
         shutil.rmtree(self.path("elsewhere"))
         return words
 
+    @in_long_form
     def test_every_program_says_how_to_draw_its_picture_again(self):
         common = ("-t", "0.7", "--orbit=-20,10,0.9", "--samples", "2", "--alpha", "--compress", "9")
         for program in self.DRAW[::step(21)]:
@@ -1789,6 +1860,7 @@ class Again(Case):
             if LONG:
                 self.assert_again(program, *SMALL, "--lighting", "off")
 
+    @in_long_form
     def test_a_programs_own_options_are_said(self):
         for program in SCENES[::step(12)]:
             values = self.values(program)
@@ -1829,6 +1901,7 @@ class Again(Case):
             self.assertEqual(name, program)
             self.assertTrue(self.good(*words, "-o", "-", program=program) == self.read(path))
 
+    @in_long_form
     @unittest.skipUnless(os.path.exists(MODULE), "without OpenImageIO")
     def test_every_format_has_the_same_bytes_in_every_environment(self):
         """What the clock says changes between the first picture of each format and its last."""

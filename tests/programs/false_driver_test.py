@@ -31,6 +31,7 @@ class Lies(base.Case):
         return self.drawn("-s", "90x60", "--precision", precision, program=program,
                           environment=self.lying(lie) if lie else self.own).pixels
 
+    @base.in_long_form
     def test_every_picture_is_drawn_as_the_driver_computes(self):
         computed = {("highp", "highp"): "mediump", ("mediump", "mediump"): "highp"}
         for program in PROGRAMS[::base.step(9)]:
@@ -47,6 +48,7 @@ class Lies(base.Case):
         self.good(*base.SMALL, "--precision", "mediump", program="PhongBlinn",
                   environment=self.lying("without"))
 
+    @base.in_long_form
     def test_reports_do_not_repeat_what_is_claimed(self):
         for program, option in (("LightedCube", "--doctor"), ("PhongBlinn", "--explain")):
             def said(environment):
@@ -58,6 +60,7 @@ class Lies(base.Case):
             for lie in ("none", "more")[::base.step(2)]:  # the pictures are those of an honest driver
                 self.assertEqual(said(self.lying(lie)), honest, (option, lie))
 
+    @base.in_long_form
     def test_an_error_allowed_is_that_of_the_picture(self):
         """highp of 16 bits has the error of mediump, not that of highp."""
         command = ("-s", "60x20", "--error", "4", "-v", "-o", "a.png")

@@ -19,7 +19,12 @@ SMALL = ("-s", "70x54")
 
 def width(panel):
     """Of a sheet of one case: margins, panels, text."""
-    return 2 * 28 + 3 * (panel + 8) + 330
+    return 2 * 28 + 3 * (panel + 8) + 372
+
+
+def shader(name):
+    with open(os.path.join(base.SOURCE, "shaders", name), encoding="utf-8") as file:
+        return [line.strip() for line in file]
 
 
 class Study(base.Case):
@@ -84,6 +89,7 @@ class Cases(Study):
         self.assertGreater(sheet.width, 3 * 280)
         self.assertGreater(self.colors("hard_cases/mirror.png"), 200)
 
+    @base.in_long_form
     def test_a_case_of_a_shader_ends_with_the_line_that_the_stable_form_changes(self):
         for name, file in (("zero-normals", "unguarded.glsl"), ("cancelling", "unguarded.glsl"),
                            ("opposite", "unguarded.glsl"), ("touching", "unguarded.glsl"),
@@ -92,12 +98,20 @@ class Cases(Study):
             number = re.search(rf"\n(?:vertex \d+: )?{file}:(\d+): .* undefined\n(.*\n)*verdict: .*\n$", text)
             self.assertIsNotNone(number, text)
             stable = "highlight.glsl" if name == "negative" else "guards.glsl"
-            with open(os.path.join(base.SOURCE, "shaders/study", file)) as plain, \
-                    open(os.path.join(base.SOURCE, "shaders/lighting", stable)) as other:
-                self.assertNotIn(plain.read().splitlines()[int(number[1]) - 1], other.read().splitlines())
+            self.assertNotIn(shader("study/" + file)[int(number[1]) - 1], shader("lighting/" + stable))
+        # Those whose formula is another one; of "unit" the line is gone.
+        for name, plain, stable in (("leak", "study/unguarded_facing.glsl", "lighting/guards.glsl"), ("unit", "lighting.frag", ""),
+                                    ("two-sided", "study/side_by_normal.glsl", "lighting/side.glsl")):
+            text = self.hard_cases("--case", name)
+            number, line = re.search(rf"\n(?:the|only the) stable form has .*: {os.path.basename(plain)}:(\d+): (.*)\nverdict: ", text).groups()
+            self.assertEqual(shader(plain)[int(number) - 1], line)
+            self.assertNotIn(line, shader(stable) if stable else [])
+            self.assertTrue(stable or "safe_normalize(normal)" in line)
+        text = self.hard_cases("--case", "pow")  # drawn as in the table
+        self.assertAlmostEqual(float(re.search(r"verdict: ([\d.]+) steps off as drawn", text)[1]), self.rows(text)["pow"][0], delta=0.01)
         # Those of mediump: where digits are lost, and what magnifies that.
-        for name, lost, magnifier in (("spot", "dot(-to_light, ", "in_cone("), ("wide", "dot(way, way)", ""),
-                                      ("highlight", "", "highlight(")):
+        for name, lost, magnifier in (("spot", "dot(-to_light, ", "acos(along)"), ("wide", "dot(way, way)", ""),
+                                      ("highlight", "", "pow(base, exponent)")):
             verdict = self.hard_cases("--case", name).splitlines()[-1]
             self.assertRegex(verdict, r"steps off: 0\.\d\d by the formula, .*, born in \S+ \(.*\)")
             self.assertIn(lost, verdict)
@@ -111,6 +125,7 @@ class Cases(Study):
         self.assertEqual({line.count("|") for line in lines[2:]}, {9})
         self.assertRegex(lines[4], r"^\| leak \| \d+\.\d\d \| [\d.]+% \|")
 
+    @base.in_long_form
     def test_every_case_goes_wrong_and_is_kept(self):
         text = self.hard_cases("-o", "all", *(() if base.LONG else ("-s", "140x140")))
         names, rows = self.names(), self.rows(text)
@@ -125,6 +140,7 @@ class Cases(Study):
             across, down = self.size(f"all/{name}.png")  # shown at half of that
             self.assertTrue(1500 < across < 1900 and least < down <= 2000, (name, across, down))
 
+    @base.in_long_form
     def test_another_size_is_drawn_and_small_ones_are_enlarged(self):
         self.hard_cases("--case", "leak", *SMALL)
         self.hard_cases("--case", "uneven", "-s", "300x200")
@@ -142,6 +158,7 @@ class Cases(Study):
             for a, b in zip(color, colors[13]):
                 self.assertLessEqual(abs(a - b), 2)
 
+    @base.in_long_form
     def test_without_a_font_there_is_no_text(self):
         self.hard_cases("--case", "pow", *SMALL)
         before = self.png("hard_cases/pow.png")

@@ -47,6 +47,7 @@ class Lessons(base.Case):
     def page(self, *arguments):
         return self.drawn(*arguments, program="lessons")
 
+    @base.in_long_form
     def test_pictures_are_those_of_the_programs(self):
         lessons = predecessors()
         self.assertEqual(len(lessons), 9)
@@ -72,6 +73,7 @@ class Lessons(base.Case):
         page = part(self.page("--lesson", "9"), 2)
         self.assertGreater(sum(value >= 128 for value in page[::3]), 1000)
 
+    @base.in_long_form
     def test_a_name_is_as_good_as_a_number(self):
         by_number = self.page("--lesson", "3")
         by_name = self.page("--lesson", "LightedCube_ambient")
@@ -82,12 +84,14 @@ class Lessons(base.Case):
         self.refused(2, "did you mean LightedCube_ambient[?]", "--lesson", "lightedcube_ambint",
                      program="lessons")
 
+    @base.in_long_form
     def test_changed_lines_have_their_colors(self):
         first, ambient = self.page(), self.page("--lesson", "3")
         self.assertEqual(count(below(first), ADDED) + count(below(first), REMOVED), 0)
         self.assertGreater(count(below(ambient), ADDED), count(below(ambient), REMOVED))
         self.assertGreater(count(below(ambient), REMOVED), 50)
 
+    @base.in_long_form
     def test_a_copy_of_a_shader_is_compared_too(self):
         """The picture stays where a comment is added, and below is one more line."""
         os.mkdir(self.path("mine"))
@@ -109,6 +113,7 @@ class Lessons(base.Case):
         self.refused(1, "^mine/LightedCube.vert:1: error: ", "--lesson", "3", "--shaders", "mine",
                      program="lessons", lines=0)
 
+    @base.in_long_form
     def test_any_size(self):
         for size in "1x1", "100x400", "400x100":
             page = self.page("-s", size, "--lesson", "7")
@@ -123,6 +128,7 @@ class Lessons(base.Case):
             self.assertTrue(any(part(page, 2)), number)
             self.assertGreater(count(below(page), ADDED), 20, number)
 
+    @base.in_long_form
     def test_a_light_page(self):
         """The same pictures and lines, dark on white: contrasts of letters are at least 7 to 1 on both."""
         dark, light = self.page("--lesson", "7"), self.page("--lesson", "7", "--light", "on")
@@ -139,6 +145,7 @@ class Lessons(base.Case):
                 one, other = sorted(luminance([int(c) for c in color.split(",")]) for color in (paper, letter))
                 self.assertGreaterEqual((other + 0.05) / (one + 0.05), 7, letter)
 
+    @base.in_long_form
     def test_columns_do_not_touch(self):
         """Between two columns, and at the right, there is nothing but background."""
         for size, number in (("400x300", 5), ("400x300", 7), ("640x480", 5), ("1280x960", 5)):
@@ -149,6 +156,7 @@ class Lessons(base.Case):
                           for y in range(int(TEXT * scale) + 6, page.height)}
                 self.assertEqual(len(column), 1, (size, number, x))
 
+    @base.in_long_form
     def test_a_second_column_has_the_lines_that_the_first_has_no_room_for(self):
         """The title of the next file, at its top: of the first lesson, which is cut in one column,
         and where the letters leave rows to spare."""

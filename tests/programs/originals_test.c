@@ -17,8 +17,6 @@
 #include "support/testing.h"
 
 enum { SIZE = 200, LIGHTS = 4 };
-static const double PI = 3.14159265358979323846;
-
 /* What an original shows; light in eye coordinates. */
 typedef struct Lamp {
     Vec3 place; /* w = 0: the direction towards it */
@@ -197,7 +195,7 @@ static void open_rings(Mesh *mesh)
 /* From bottom to top; each quadrilateral is split from its lower left to its upper right. */
 static void add_rings(Mesh *mesh, const Ring *rings, int count, int slices)
 {
-    for (int j = 0; j < count; j++) {
+    for (int j = 0; j < count; j++)
         for (int i = 0; i <= slices; i++) {
             const uint32_t here = (uint32_t)mesh->vertex_count++,
                            above = here + (uint32_t)slices + 1;
@@ -211,7 +209,6 @@ static void add_rings(Mesh *mesh, const Ring *rings, int count, int slices)
             for (int k = 0; k < 6 && j + 1 < count && i < slices; k++)
                 mesh->indices[mesh->index_count++] = corners[k];
         }
-    }
     assert_true(mesh->vertex_count <= MOST_VERTICES && mesh->index_count <= MOST_INDICES);
 }
 
@@ -364,10 +361,9 @@ static void assert_equal_pictures(const Example *example, const char *line)
  * table of examples/guide/originals.md has the line. */
 static void assert_differs(const Example *example, const char *usual, const char *line)
 {
-    char wanted[256];
     size_t size;
     char *page = testing_read(testing_source("examples/guide/originals.md"), &size);
-    snprintf(wanted, sizeof wanted, "`%s %s`", example->name, line);
+    const char *wanted = formatted("`%s %s`", example->name, line);
     if (!strstr(page, wanted))
         fail_msg("originals.md does not have %s", wanted);
     free(page);
@@ -444,15 +440,13 @@ static void check_materials(const char *shape, const Mesh *mesh, Mat4 placed)
         Original original = {.camera = demo_camera((Vec3){2, 2, 5}, 0.8),
                              .background = {1, 1, 1},
                              .distance = state->distance};
-        char line[256];
         memcpy(original.degrees, state->degrees, sizeof original.degrees);
         original.lamps[0] =
             (Lamp){.place = {0, 0, 1}, .diffuse = {1, 1, 1}, .specular = {0.4, 0.4, 0.4}};
         begin_original(&original);
         draw_mesh(&original, mesh, placed, &material);
         end_original();
-        snprintf(line, sizeof line, "--shape %s %s", shape, state->line);
-        assert_equal_pictures(&Materials, line);
+        assert_equal_pictures(&Materials, formatted("--shape %s %s", shape, state->line));
     }
 }
 
@@ -481,7 +475,7 @@ TEST(materials_has_the_demos_pictures)
 static void open_flat_sphere(Mesh *mesh, int slices, int stacks, bool slip)
 {
     open_rings(mesh);
-    for (int j = 0; j < stacks; j++) {
+    for (int j = 0; j < stacks; j++)
         for (int i = 0; i < slices; i++) {
             const uint32_t first = (uint32_t)mesh->vertex_count;
             const uint32_t corners[] = {first, first + 1, first + 3, first, first + 3, first + 2};
@@ -503,7 +497,6 @@ static void open_flat_sphere(Mesh *mesh, int slices, int stacks, bool slip)
             for (int k = 0; k < 6; k++)
                 mesh->indices[mesh->index_count++] = corners[k];
         }
-    }
 }
 
 TEST(smooth_flat_has_the_demos_pictures)
@@ -518,7 +511,6 @@ TEST(smooth_flat_has_the_demos_pictures)
         const int *size = sizes[i / 6];
         const char *kind = kinds[i % 3], *orbit = i / 3 % 2 ? "--orbit 30,-50,1,10" : "";
         CLOSED(mesh_close) Mesh mesh;
-        char line[128];
         if (i % 3 == 0)
             open_sphere(&mesh, 4, size[0], size[1]);
         else
@@ -528,9 +520,8 @@ TEST(smooth_flat_has_the_demos_pictures)
         begin_original(&original);
         draw_mesh(&original, &mesh, mat4_rotate(-90, X), &material);
         end_original();
-        snprintf(line, sizeof line, "--normals %s --slices %d --stacks %d %s", kind, size[0],
-                 size[1], orbit);
-        assert_equal_pictures(&SmoothFlat, line);
+        assert_equal_pictures(&SmoothFlat, formatted("--normals %s --slices %d --stacks %d %s",
+                                                     kind, size[0], size[1], orbit));
         if (i == 1)
             assert_differs(&SmoothFlat, "--normals flat", "--normals original");
     }
@@ -711,10 +702,9 @@ TEST(spot_light_has_the_pages_pictures)
         const bool cube = i / 20;
         Original original;
         Light light;
-        char line[256];
         spot_original(&original, &light, seconds, cutoff);
-        snprintf(line, sizeof line, "--shape %s --cutoff %g -t %g %s", cube ? "cube" : "sphere",
-                 cutoff, seconds, set_pair(&original, i / 5 % 4));
+        const char *line = formatted("--shape %s --cutoff %g -t %g %s", cube ? "cube" : "sphere",
+                                     cutoff, seconds, set_pair(&original, i / 5 % 4));
         draw_page(&original, &light, 1, cube, 0);
         assert_equal_pictures(&SpotLight, line);
     }
@@ -741,12 +731,11 @@ TEST(normal_matrix_has_the_pages_pictures)
         const double seconds = 2.9 * (i / 2);
         Original original;
         Light light;
-        char line[256];
         point_original(&original, &light, turned((Vec3){1.5, 1, 0}, seconds), 0.5);
         original.background = grey(0.2);
         original.wrong_normals = i % 2;
-        snprintf(line, sizeof line, "--matrix %s -t %g %s", i % 2 ? "wrong" : "right", seconds,
-                 set_pair(&original, i / 2 % 4));
+        const char *line = formatted("--matrix %s -t %g %s", i % 2 ? "wrong" : "right", seconds,
+                                     set_pair(&original, i / 2 % 4));
         begin_original(&original);
         draw_mesh(&original, &mesh, mat4_scale((Vec3){2, 0.7, 0.7}), &GOLD);
         draw_marks(&original, &light, 1);
@@ -769,13 +758,12 @@ TEST(two_sided_lighting_has_the_pages_pictures)
         CLOSED(mesh_close) Mesh quad;
         Original original;
         Light light;
-        char line[256];
         SUCCEEDS(mesh_quad(&quad, 1, message));
         for (size_t v = 0; v < quad.vertex_count && back; v++)
             quad.vertices[v].normal[2] = -1;
         point_original(&original, &light, (Vec3){0, 0.5, 0.5}, 0.2);
         original.background = grey(0.5);
-        snprintf(line, sizeof line, "-t %g %s", seconds, set_pair(&original, i % 4));
+        const char *line = formatted("-t %g %s", seconds, set_pair(&original, i % 4));
         begin_original(&original);
         draw_mesh(&original, &quad, mat4_rotate(30 * seconds, Y), back ? &silver : &GOLD);
         draw_marks(&original, &light, 1);

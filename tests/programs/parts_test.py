@@ -93,6 +93,7 @@ class Films(Parts):
             os.remove(self.path("a.gif"))
         shutil.rmtree(self.path("a.gif.parts"))
 
+    @base.in_long_form
     def test_parts_of_different_shaders_models_or_programs_are_not_merged(self):
         lecture, scene = self.copy_shaders("lecture/LightedCube_animation.frag", "lighting/cone.glsl")
         own = ("--shaders", "mine")
@@ -117,6 +118,7 @@ class Films(Parts):
             path = self.path("its", "sub" * (name == "wood.png"), name)
             self.assert_mixture_is_refused("Scene", ("its/m.obj",), re.escape(name), lambda: self.edit(path))
 
+    @base.in_long_form
     def test_parts_of_different_programs_are_not_merged(self):
         draw = (*TURN, "--shaders", os.path.join(base.SOURCE, "shaders"), "-o", "a.gif")
         other = self.path("build/examples/LightedCube_animation")
@@ -152,13 +154,27 @@ class Films(Parts):
         last = self.inodes(folder)
         self.assertEqual([name for name in names if last[name] == after[name]], [])
 
+    def test_pictures_with_numbers_are_kept_while_nothing_changes(self):
+        shader = self.copy_shaders("lecture/LightedCube_animation.frag")[0]
+        draw = ("-o", "a%d.png", "--part", "3/3", "--shaders", "mine")
+        self.film(*draw)
+        os.remove(self.path("a8.png"))
+        before = self.inodes(".")
+        for drawn in (["a2.png", "a8.png"], ["a11.png", "a2.png", "a5.png", "a8.png"]):
+            self.film(*draw)
+            after = self.inodes(".")
+            self.assertEqual(sorted(name for name in after if after[name] != before.get(name) and name[-1] == "g"), drawn)
+            before = after
+            self.edit(shader)
+
+    @base.in_long_form
     def test_pictures_with_numbers_are_those_of_one_run(self):
         self.film("-o", "one%d.png")
         for part in (3, 1, 2):
             self.film("-o", "part%d.png", "--part", f"{part}/3")
             if part == 3:
                 self.assertEqual({name for name in os.listdir(self.folder) if "part" in name},
-                                 {f"part{i}.png" for i in (2, 5, 8, 11)})
+                                 {"part%d.png.3-of-3", *(f"part{i}.png" for i in (2, 5, 8, 11))})
         for i in range(12):
             self.assertTrue(self.read(f"one{i}.png") == self.read(f"part{i}.png"), i)
         before = self.everything()
@@ -198,6 +214,7 @@ class Films(Parts):
                 os.remove(name)
 
     @unittest.skipUnless(os.path.exists(base.MODULE), "without OpenImageIO")
+    @base.in_long_form
     def test_what_is_missing_or_of_another_command_is_said(self):
         draw = (*TURN[:2], "-n", "3", "-o", "a.gif")
         self.wrong(1, r"a\.gif\.parts: 3 of 3 pictures are missing, the first is 000000\.png; "
@@ -243,6 +260,7 @@ class Galleries(Parts):
     def gallery(self, *arguments, **more):
         return self.good(*base.SMALL, *arguments, program="gallery", **more).decode()
 
+    @base.in_long_form
     def test_parts_make_the_gallery_of_one_run_after_kills(self):
         command = [os.path.join(base.EXAMPLES, "gallery"), *base.SMALL, *SOME, "-o", "parts"]
         self.gallery(*SOME, "-o", "one")
@@ -261,6 +279,7 @@ class Galleries(Parts):
                    "--merge", "-o", "g", program="gallery")
         self.assertEqual(os.listdir(self.folder), ["g.parts"])
 
+    @base.in_long_form
     def test_parts_of_two_versions_of_a_shader_are_no_gallery(self):
         mine = self.copy_shaders("lighting/cone.glsl")
         draw = ("Materials", "ColoredLights", "--shaders", "mine", "-o", "g")

@@ -168,13 +168,12 @@ static void check_lesson(const Lesson *lesson, const int size[2], ErrorSum sums[
                 .width = size[0], .height = size[1], .meshes = true, .centers = true};
             CLOSED(reference_close) Reference exact;
             LessonScene made;
-            char name[96];
             lesson_open(lesson, TIMES[t], &made);
             SUCCEEDS(reference_open(&exact, &made.scene, &as, message));
             SUCCEEDS(renderer_picture(&renderer, &request, TIMES[t], &picture, message));
-            snprintf(name, sizeof name, "%s-%dx%d-%gs-%s", lesson->example->name, size[0], size[1],
-                     TIMES[t], half ? "default" : "highp");
-            check_picture(name, &picture, &made.scene, &exact, half, &sums[half]);
+            check_picture(formatted("%s-%dx%d-%gs-%s", lesson->example->name, size[0], size[1],
+                                    TIMES[t], half ? "default" : "highp"),
+                          &picture, &made.scene, &exact, half, &sums[half]);
             mesh_close(&made.mesh);
         }
     }

@@ -63,6 +63,7 @@ class Precision(base.Case):
             without_rounding = bound - 0.5 if bound >= 0.5 else bound
             self.assertAlmostEqual(float(highp), bound, msg=name, delta=0.2 * without_rounding + 0.5 * 0.1 ** len(highp.split(".")[1]))
 
+    @base.in_long_form
     def test_a_processor_without_16_bits_is_told_apart(self):
         cache = {"XDG_CACHE_HOME": self.path("cache"), "MESA_SHADER_CACHE_DIR":
                  os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")}

@@ -6,7 +6,7 @@ import sys
 import command_line_test as base
 
 NAMES = ("LightedTranslatedRotatedCube", "PointLightedSphere_perFragment", "ShininessRow")
-ROUNDED = re.compile(r"\w+: \d+ pixels? moved(?: \(\d+ at edges\))? by up to \d+ steps?: all by rounding")
+ROUNDED = re.compile(r"\w+: \d+ pixels? moved(?: \(\d+ at edges\))? by up to \d+ steps?: all by rounding(?: or at edges)?")
 
 
 DRIVERS = {"llvmpipe": {"GALLIUM_DRIVER": "llvmpipe"}, "softpipe": {"GALLIUM_DRIVER": "softpipe"},
@@ -19,6 +19,7 @@ class Regression(base.Case):
         self.assertEqual((said.returncode, said.stderr), (code, b""), said.stdout)
         return said.stdout.decode().splitlines()
 
+    @base.in_long_form
     def test_drivers_differ_by_rounding_and_edges(self):
         names = () if base.LONG == 1 else NAMES  # all programs
         pairs = (("llvmpipe", "softpipe"), ("softpipe", "llvmpipe"), ("llvmpipe", "128 bits"), ("softpipe", "128 bits"))[::base.step(4)]
@@ -38,6 +39,7 @@ class Regression(base.Case):
                 # Both over each other, and what moves their border.
                 self.assertRegex(page, rf'"{name}-now[.]png".*class="before" src="{name}-before[.]png".*\n<input type="range"[^>]*{name}:.*clipPath')
 
+    @base.in_long_form
     def test_a_mistake_is_named_with_its_line(self):
         self.gallery(*NAMES[1:], "-o", "before", "--keep-shaders")
         # Mistakes of the labs, each of more than two steps of 1/255.
@@ -59,6 +61,15 @@ class Regression(base.Case):
         self.assertRegex(said[0], "^ShininessRow: its command was ShininessRow .*, and is ShininessRow .*--orbit 5,0")
         self.assertRegex(said[1], r"cannot be by rounding; most like the change is \w+.*, in \w+\.\w+:\d+: ")
 
+    def test_an_edge_that_is_moved_is_no_rounding(self):
+        self.gallery("SpotLight", "-o", "before", "--keep-shaders")
+        with open(os.path.join(base.SOURCE, "shaders/lighting/group.glsl"), encoding="utf-8") as file:
+            text = file.read()
+        self.assertIn("in_cone(along, u_Spot[i].w)", text)
+        self.make("mine/lighting/group.glsl", text.replace("in_cone(along, u_Spot[i].w)", "in_cone(along, u_Spot[i].w * 1.01)"))
+        said = self.gallery("SpotLight", "--shaders", "mine", "--verify", "before", code=1)
+        self.assertRegex(said[2], r"pixels moved.* by up to \d{3} steps: \d+ cannot be by rounding: group.glsl:\d+: +share \*= in_cone")
+
     def test_what_is_no_folder_of_pictures_is_refused(self):
         self.gallery(NAMES[0], "-o", "before")
         os.mkdir(self.path("empty"))
@@ -66,6 +77,8 @@ class Regression(base.Case):
         self.refused(1, "^gallery: before: has the earlier pictures", "--verify", "before", "-o", "before", program="gallery")
         self.refused(2, "^gallery: --verify before: leave out", "--verify", "before", "--keep-shaders", program="gallery")
         self.refused(1, "ShininessRow.png", "--verify", "before", "ShininessRow", program="gallery")
+        self.refused(1, "^gallery: before/Light.*: is of 150x150 pixels, not 400x400; draw as it was drawn, with --size 150x150 --samples 0\n",
+                     "--verify", "before", program="gallery")
         self.refused(1, "^gallery: none: has no picture of a program", "--verify", "none", program="gallery")
         self.refused(2, "^gallery: --keep-shaders: goes with neither", "--keep-shaders", "--part", "1/2", program="gallery")
 

@@ -130,6 +130,7 @@ class Names(Case):
                    "name another folder\n"))
         self.assertTrue(os.path.exists(self.path("systems/trixie/notes")))
 
+    @base.in_long_form
     def test_what_is_about_a_word(self):
         """Programs, options and the book's places; in any case of letters."""
         code, text, said = self.start("--list", "Specular")
@@ -142,6 +143,7 @@ class Names(Case):
         self.assertEqual(self.start("--list", "a.b*c"), (
             1, "", "examples/run: nothing is about a.b*c; examples/run --list names all programs\n"))
 
+    @base.in_long_form
     def test_the_list_for_tools_has_every_program(self):
         code, text, said = self.start("--json")
         self.assertEqual((code, said), (0, ""))
@@ -199,6 +201,7 @@ class Pages(Case):
     def change(self, path):
         os.utime(self.path("tree", path), (time.time() + 60,) * 2)
 
+    @base.in_long_form
     def test_only_pages_are_replaced(self):
         first = [".lighting", "index.html", "old.html", "single/a.html"]
         self.web("pages/", "index.html old.html single/a.html")
@@ -219,12 +222,14 @@ class Pages(Case):
         self.assertEqual(self.files("pages"), [".lighting", "index.html"])
         self.assertTrue(os.path.exists(self.path("mine.html")))
 
+    @base.in_long_form
     def test_nothing_is_linked_anew_while_it_draws_pages(self):
         tool = self.read("bin/ninja").decode()
         self.tool("ninja", f"case $2 in *-web) flock -n '{self.path('tree/build/.lock')}' true && exit 1 ;; esac\n{tool}")
         self.web("pages", "index.html")
         subprocess.run(["flock", "-n", self.path("tree/build/.lock"), "true"], check=True)
 
+    @base.in_long_form
     def test_pages_that_cannot_be_written_leave_the_old_ones(self):
         self.web("pages", "index.html old.html")
         self.change("examples/run")
@@ -234,6 +239,7 @@ class Pages(Case):
                          (1, "", "examples/run: web: pages: cannot be written\n"))
         self.assertEqual(self.files("pages"), [".lighting", "index.html", "old.html"])
 
+    @base.in_long_form
     def test_shaders_that_come_or_go_are_listed_again(self):
         self.assertIn("configuring", self.web("pages", "index.html"))
         self.change("shaders/some/a.glsl")
@@ -265,6 +271,7 @@ class Folders(Case):
     def start(self, *arguments, **more):
         return super().start("LightedCube", *arguments, run=self.run_path, **base.SOMEBODY, **more)
 
+    @base.in_long_form
     def test_what_is_not_built_is_built_in_the_users_cache(self):
         self.protect()
         code, text, said = self.start()
@@ -276,6 +283,7 @@ class Folders(Case):
         self.assertEqual(self.start(), (0, text, ""))
         self.assertFalse(os.path.exists(self.path("tree/build")))
 
+    @base.in_long_form
     def test_a_program_is_told_how_it_was_started(self):
         """For the command that its window shows."""
         self.tool("ninja", TOOLS["ninja"].replace("ran $0", "$LIGHTING_RUN"))
@@ -283,6 +291,7 @@ class Folders(Case):
         code, text, said = self.start()
         self.assertEqual((code, text), (0, self.run_path + "\n"), said)
 
+    @base.in_long_form
     def test_the_cache_may_be_elsewhere(self):
         self.protect()
         for cache, there in ((self.path("home/other"), "home/other/lighting"),
@@ -290,6 +299,7 @@ class Folders(Case):
             code, text, said = self.start(environment={"XDG_CACHE_HOME": cache})
             self.assertEqual((code, text.startswith("ran " + self.path(there))), (0, True), said)
 
+    @base.in_long_form
     def test_a_build_that_may_not_be_written_runs(self):
         result = super().start("LightedCube", run=self.run_path)
         self.assertEqual(result[:2], (0, f"ran {self.path('tree/build/examples/LightedCube')}\n"))
@@ -334,6 +344,7 @@ class Folders(Case):
             self.assertNotIn("ERROR", said)
             shutil.rmtree(self.path("tree/build"))
 
+    @base.in_long_form
     def test_a_long_build_says_how_far_it_is(self):
         """Without a terminal, too."""
         self.tool("ninja", 'for i in $(seq 80); do echo "[$i/80] Compiling"; done; exit 1')
@@ -341,6 +352,7 @@ class Folders(Case):
         self.assertEqual(re.findall(r"built (\d+) of 80 files", said), ["20", "40", "60"])
         self.assertIn("[80/80] Compiling", said)  # what it said, because it failed
 
+    @base.in_long_form
     def test_a_slow_build_says_how_far_it_is(self):
         """Every 10 s, and not only the first time."""
         self.assertIn("building LightedCube\n", super().start("LightedCube", run=self.run_path)[2])
@@ -350,6 +362,7 @@ class Folders(Case):
         self.assertRegex(super().start("LightedCube", run=self.run_path)[2],
                          "^(examples/run: built 1 of 3 files\n)?examples/run: built 2 of 3 files\n$")
 
+    @base.in_long_form
     def test_two_first_commands_wait_for_each_other(self):
         """The second installs nothing."""
         self.tool("sudo", 'exec "$@"')
@@ -372,6 +385,7 @@ class Folders(Case):
         self.assertTrue(line.endswith(f"another command uses {self.path('tree/build')}; waiting for it\n"), line)
         self.assertEqual(self.read("home/calls"), b"\n")
 
+    @base.in_long_form
     def test_two_tools_find_that_nothing_has_changed(self):
         """And so the program starts at once."""
         first = super().start("LightedCube", run=self.run_path)
@@ -397,6 +411,7 @@ class Folders(Case):
             self.assertEqual((code, text), (1, ""))
             self.assertRegex(error, f"^examples/run: {said}\n$")
 
+    @base.in_long_form
     def test_only_the_plugins_that_are_needed_are_built(self):
         self.tool("ninja", 'shift 2; [ "$1" = -n ] || echo "$*" >>"$HOME/targets"; exit 1')
         for arguments, plugins in (((), []), (("-s40",), ["app"]), (("-o", "a.exr"), ["app", "image_oiio"]),

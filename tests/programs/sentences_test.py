@@ -34,6 +34,7 @@ class Normals(base.Case):
             file.write(text.replace("normalize(v_Normal)", "v_Normal"))
         return self.drawn("--shaders", program, *arguments, program=program)
 
+    @base.in_long_form
     def test_normals_of_a_cube_stay_unit_and_those_of_a_sphere_get_shorter(self):
         cube, sphere = "PointLightedCube_perFragment", "PointLightedSphere_perFragment"
         # mediump, of 11 bits: two steps.
@@ -51,6 +52,7 @@ class Normals(base.Case):
         m, n = ([[float(word) for word in row[side].split()] for row in rows] for side in (0, 1))
         return m, n, text
 
+    @base.in_long_form
     def test_both_matrices_are_printed_and_equal_if_orthogonal(self):
         m, n, text = self.matrices("--scale", "2,0.5,4")
         self.assertEqual(m, [[2, 0, 0], [0, 0.5, 0], [0, 0, 4]])
@@ -69,6 +71,7 @@ class Normals(base.Case):
         self.assertIn("N is a multiple of M", text)
         self.assertIn("; the scene has M for normals, too", self.matrices("--matrix", "wrong")[2])
 
+    @base.in_long_form
     def test_the_scale_is_an_option(self):
         wrong = [self.drawn("--scale", scale, "--matrix", "wrong", program="NormalMatrix")
                  for scale in ("1,1,1", "2,0.7,0.7")]
@@ -83,6 +86,7 @@ class Normals(base.Case):
         self.assertTrue(all(max(abs(a - b) for a, b in zip(row[:600], row[600:])) <= 1 for row in rows))
         self.refused(2, "--scale 1,2: must be X,Y,Z, each -5 to 5", "--scale", "1,2", program="NormalMatrix")
 
+    @base.in_long_form
     def test_normals_are_drawn_in_every_scene(self):
         yellow, blue = (255, 255, 0), (102, 204, 255)
         def colors(*arguments):
@@ -110,6 +114,7 @@ class Normals(base.Case):
 
 
 class Lights(base.Case):
+    @base.in_long_form
     def test_a_negative_cosine_takes_from_ambient_light(self):
         scene = ("--turning-light", "off", "--global-ambient", "0.5")
         clamped = self.drawn(*scene, program="ShadingModels")

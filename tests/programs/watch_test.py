@@ -159,6 +159,7 @@ class Pictures(Watched):
         self.assertEqual(watching.end(), -2)
         self.assertEqual(sorted(os.listdir(self.folder)), ["mine", "out.png", "plain.png"])
 
+    @base.in_long_form
     def test_every_way_of_saving(self):
         watching = self.watch_cube().ready()
         swaps = ("v_Color.grba", "v_Color.brga", "v_Color.rgba")
@@ -207,6 +208,7 @@ class Pictures(Watched):
         after = os.stat(self.path("out.png"))
         self.assertEqual((before.st_ino, before.st_mtime_ns), (after.st_ino, after.st_mtime_ns))
 
+    @base.in_long_form
     def test_a_copy_that_comes_later_is_found(self):
         os.mkdir(self.path("mine"))
         watching = self.watch("--shaders", "mine").ready()
@@ -255,6 +257,7 @@ class Pictures(Watched):
         os.rename(self.path("away"), self.path("mine"))
         watching.drew(self.path("mine/LightedCube.vert"))  # which is read first
 
+    @base.in_long_form
     def test_an_include_of_a_scene(self):
         self.copy("lighting.vert", "lighting.frag", *(
             "lighting/" + name
@@ -275,6 +278,7 @@ class Pictures(Watched):
         watching.drew(output)
         self.is_as_drawn(*options, program="SpotLight")
 
+    @base.in_long_form
     def test_a_file_that_an_edit_includes_is_watched(self):
         watching = self.watch_cube().ready()
         self.edit(FRAGMENT, "void main", '#include "swap.glsl"\nvoid main')
@@ -288,6 +292,7 @@ class Pictures(Watched):
         watching.drew("mine/swap.glsl")
         self.is_as_drawn("--shaders", "mine")
 
+    @base.in_long_form
     def test_a_uniform_can_become_unused(self):
         watching = self.watch_cube().ready()
         vertex = "mine/LightedCube.vert"
@@ -303,6 +308,7 @@ class Pictures(Watched):
         watching.drew(vertex)
         self.is_as_drawn("--shaders", "mine")
 
+    @base.in_long_form
     def test_it_can_begin_with_a_broken_shader(self):
         self.copy_cube()
         self.edit(FRAGMENT, "= v_Color", "= v_Colour")
@@ -315,6 +321,7 @@ class Pictures(Watched):
         watching.drew(FRAGMENT)
         self.is_as_drawn("--shaders", "mine")
 
+    @base.in_long_form
     def test_numbered_pictures(self):
         self.copy_cube()
         watching = Watching(self, "LightedCube", "-o", "out%d.png", *SMALL, "-n", "3", "--shaders",

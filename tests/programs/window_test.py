@@ -353,13 +353,15 @@ class Case(base.Case):
 
 
 class Pictures(Case):
+    @base.in_long_form
     def test_every_lecture_program_shows_and_saves_what_it_draws_headless(self):
-        for program in base.PROGRAMS[::base.step(3)]:
+        for program in base.PROGRAMS[::base.step(6)]:
             with self.subTest(program=program):
                 shown = self.show("-s", "120x90", program=program, paused=True)
                 self.assert_shown(shown)
                 shown.leave()
 
+    @base.in_long_form
     def test_scenes_show_and_save_what_they_draw_headless(self):
         for program in SCENE, "ShininessRow", "PhongBlinn":
             with self.subTest(program=program):
@@ -398,6 +400,7 @@ class Pictures(Case):
         wait_for(lambda: lesson(shown.save()) == "first", "the first again")
 
     @unittest.skipUnless(base.DIAGRAMS, "no cairo")
+    @base.in_long_form
     def test_a_diagram_is_saved_as_svg(self):
         shown = self.show("-s", "240x180", "--light", "-30", "-o", "a.svg", program="Vectors")
         for _ in range(2):
@@ -450,6 +453,7 @@ class Pictures(Case):
                             for folder in ("egl", "given", "default")]
                 self.assertTrue(pictures[0] == pictures[1] == pictures[2], name)
 
+    @base.in_long_form
     def test_the_environment_opens_a_window_too(self):
         shown = Shown(self, "-s", "60x40", environment={"LIGHTING_BACKEND": "window"})
         shown.pause()
@@ -457,6 +461,7 @@ class Pictures(Case):
 
 
 class Keys(Case):
+    @base.in_long_form
     def test_the_title_has_the_name_and_the_frames_per_second(self):
         shown = self.show()
         # At first the pointer may still be over it, and the title tells of a pixel.
@@ -486,6 +491,7 @@ class Keys(Case):
                     self.assertGreaterEqual(elapsed, second[0] - first[2] - 0.001)
                     self.assertLessEqual(elapsed, second[2] - first[0] + 0.001)
 
+    @base.in_long_form
     def test_arrows_step_the_time(self):
         shown = self.show("-t", "3", "--fps", "4", "-s", "60x60", paused=True)
         begin = seconds_of(shown.save())
@@ -496,6 +502,7 @@ class Keys(Case):
             self.assertAlmostEqual(seconds_of(shown.save()), begin + there, delta=0.0015)
         self.assert_shown(shown)
 
+    @base.in_long_form
     def test_a_step_pauses(self):
         shown = self.show("-s", "60x60")
         shown.key("Right")
@@ -522,12 +529,14 @@ class Keys(Case):
             self.assertEqual(command[command.index("--orbit") + 1], "40,20,0.81,5")
             shown.leave()
 
+    @base.in_long_form
     def test_the_pointer_alone_and_other_buttons_move_nothing(self):
         shown = self.show("-s", "300x300")
         self.server.xdotool("mousemove", 50, 50, "mousemove", 200, 200,
                             "mousedown", 3, "mousemove", 100, 120, "mouseup", 3)
         self.assertIsNone(orbit_of(shown.save()))
 
+    @base.in_long_form
     def test_an_orbit_has_its_limits(self):
         shown = self.show("-s", "300x300")
         shown.drag((150, 10), (150, 290))
@@ -538,6 +547,7 @@ class Keys(Case):
         self.assertEqual(orbit_of(picture), (0, 90, 0.1))
         self.assert_headless(picture, MOVING)
 
+    @base.in_long_form
     def test_keys_of_one_frame(self):
         """As a slow one has them: each counts in its turn."""
         shown = self.show("-t", "50", "-s", "300x300", paused=True)
@@ -547,6 +557,7 @@ class Keys(Case):
         self.assertAlmostEqual(seconds_of(shown.save("Up", "Up", "s", "Up")), begin + 2, delta=0.0015)
         self.assertAlmostEqual(seconds_of(shown.save()), begin + 3, delta=0.0015)
 
+    @base.in_long_form
     def test_r_resets(self):
         shown = self.show("-t", "50", "-s", "300x300", "--orbit", "5,6")
         shown.drag((150, 100), (100, 150))
@@ -560,6 +571,7 @@ class Keys(Case):
         self.assertLessEqual(seconds_of(picture), 50 + time.monotonic() - before)
         self.assertLess(seconds_of(picture), seconds_of(shown.save()))
 
+    @base.in_long_form
     def test_letters_in_capitals_are_the_same_keys(self):
         shown = self.show("-s", "50x50")
         shown.key("S")
@@ -585,6 +597,7 @@ class Idle(Case):
             self.assertGreater(drawn, still)
             self.assertLessEqual(still, 30)  # of 120, if each was drawn
 
+    @base.in_long_form
     def test_what_changes_is_drawn_although_time_stands_still(self):
         os.mkdir(self.path("mine"))
         with open(os.path.join(base.SOURCE, "shaders/lecture/LightedCube.frag"),
@@ -627,6 +640,7 @@ class Commands(Case):
 
 
 class Sizes(Case):
+    @base.in_long_form
     def test_the_picture_has_the_window_s_size_and_aspect(self):
         shown = self.show(paused=True)
         for width, height in ((320, 200), (101, 333), (1, 1), (3, 500), (1500, 1000), (400, 400)):
@@ -655,6 +669,7 @@ class Sizes(Case):
             wait_for(lambda: shown.place() == before, "the window as it was")
             self.assert_shown(shown)
 
+    @base.in_long_form
     def test_an_icon_goes_on_afterwards(self):
         shown = self.show("-s", "200x150")
         for _ in range(3):
@@ -668,6 +683,7 @@ class Sizes(Case):
 
 
 class Panel(Case):
+    @base.in_long_form
     def test_h_shows_help_and_hides_it(self):
         shown = self.show("-s", "400x400", paused=True)
         plain = wait_for(lambda: self.still(shown), "a picture that stands still")
@@ -676,6 +692,7 @@ class Panel(Case):
         shown.key("h")
         wait_for(lambda: self.visible(shown) == plain, "no help")
 
+    @base.in_long_form
     def test_the_panel_lies_over_the_picture_and_not_in_it(self):
         shown = self.show("-s", "500x400", program=SCENE, paused=True)
         plain = wait_for(lambda: self.still(shown), "a picture that stands still")
@@ -792,6 +809,7 @@ class Panel(Case):
         shown.pause()
         self.assertNotIn("--light-color", shown.save().command)
 
+    @base.in_long_form
     def test_common_options_are_in_the_panel(self):
         """Where they lie is up to the panel: they are looked for about where they are."""
         shown = self.show("-s", "500x400", program=SCENE, paused=True)
@@ -840,6 +858,7 @@ class Panel(Case):
         shown.click(526, y)
         wait_for(lambda: sphere() == before, "the picture again")
 
+    @base.in_long_form
     def test_before_and_after(self):
         """Left of the middle, or of the pointer, as it was when b was pressed; until b is pressed again."""
         shown = self.show("-s", "400x300", paused=True)
@@ -863,6 +882,7 @@ class Panel(Case):
         shown.key("b")
         wait_for(lambda: self.visible(shown) == after, "the picture alone")
 
+    @base.in_long_form
     def test_before_and_after_of_floats(self):
         self.good("-s", "400x300", "-o", "bytes.png", program="LightedCube")
         shown = self.show("-s", "400x300", "-o", "a.exr", program="LightedCube")
@@ -876,6 +896,7 @@ class Panel(Case):
 
         wait_for(divided, "the picture, and a white line")
 
+    @base.in_long_form
     def test_letters_grow_and_the_panel_with_them(self):
         shown = self.show("-s", "300x200", program=SCENE, paused=True)
         shown.key("p")
@@ -959,6 +980,7 @@ class Shaders(Case):
             wait_for(lambda: shown.save().pixels != picture.pixels, "the first shader again")
             self.assert_drawn(shown, self.original)
 
+    @base.in_long_form
     def test_a_variable_that_becomes_unused_is_a_warning(self):
         self.edit(self.original, False)
         shown = self.show("-s", "160x160", "--shaders", "mine", program="LightedCube")
@@ -973,6 +995,7 @@ class Shaders(Case):
         for word in ("broken", "no picture"):
             self.assertNotIn(word, shown.title())
 
+    @base.in_long_form
     def test_one_that_is_broken_from_the_start_can_be_mended(self):
         self.edit(self.broken, False)
         shown = self.show("-s", "160x160", "--shaders", "mine", program="LightedCube")
@@ -986,6 +1009,7 @@ class Shaders(Case):
         os.remove(self.path(self.FRAGMENT))  # then the original is drawn
         wait_for(lambda: shown.said().endswith(f"{self.FRAGMENT} is gone\n"), "a warning")
 
+    @base.in_long_form
     def test_a_missing_folder_does_not_end_it(self):
         self.edit(self.original, False)
         shown = self.show("-s", "160x160", "--shaders", "mine", program="LightedCube")
@@ -1008,6 +1032,7 @@ class Pixels(Case):
         lines.remove(verdict)
         return "\n".join([verdict.removeprefix("verdict: "), *lines]) in shown.said()
 
+    @base.in_long_form
     def test_a_click_explains_a_pixel_and_a_drag_none(self):
         for program, place in (SCENE, (180, 220)), ("LightedCube_ambient", (210, 190)):
             shown = self.show("-v", "-s", "400x400", "--precision", "mediump", program=program)
@@ -1084,6 +1109,7 @@ class Ends(Case):
                 shown.ends(-number, re.compile(rf"^({MOVING}: saved .*\n)*$"))
                 self.assert_nothing_half_written()
 
+    @base.in_long_form
     def test_a_picture_that_cannot_be_saved_does_not_end_it(self):
         os.mkdir(self.path("there"))
         shown = self.show("-s", "60x60", "-o", "there/a.png")
@@ -1095,6 +1121,7 @@ class Ends(Case):
         shown.save()
         self.assertEqual(os.listdir(self.path("there")), ["a.png"])
 
+    @base.in_long_form
     def test_a_missing_model_does_not_end_it(self):
         model = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
         self.make("model.obj", model)
@@ -1112,6 +1139,7 @@ class Ends(Case):
         shown.pause()
         self.assert_headless(shown.save(), SCENE)
 
+    @base.in_long_form
     def test_a_full_disk_is_said_and_no_end(self):
         self.make("a.png")
         limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
@@ -1220,6 +1248,7 @@ class Displays(base.Case):
             self.assertRegex(error, rf"^{MOVING}: window: [^\n]*\n$")
         self.assertEqual(self.everything(), {})
 
+    @base.in_long_form
     def test_headless_no_window_library_is_loaded_but_what_the_driver_needs(self):
         """Those of X11 and Wayland that Mesa's own EGL is linked to are no matter of ours."""
         window = re.compile(r"/lib(X|xcb|wayland|glfw|decor)[^/]*$")

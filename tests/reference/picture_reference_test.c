@@ -89,17 +89,15 @@ TEST(scenes_are_drawn_as_the_reference_has_them)
         int columns, rows;
         SUCCEEDS(example->init(&(ShaderLoader){.only_texts = true}, message));
         const int views = scene_view_grid(example_scene(example), &columns, &rows);
-        for (int view = 0; view < views; view++) {
+        for (int view = 0; view < views; view++)
             for (int t = (i + view) % every; t < 2; t += every) {
-                char name[64];
                 Scene scene = {.object_count = 0};
                 example_scene(example)->make(times[t], view, &scene);
                 if (scene.object_count == 0)
                     continue; /* PhongBlinn's third view is their difference */
-                snprintf(name, sizeof name, "%s-%d-%d", example->name, view, t);
-                all &= check(name, &scene, number++ % every_predicted == 0);
+                all &= check(formatted("%s-%d-%d", example->name, view, t), &scene,
+                             number++ % every_predicted == 0);
             }
-        }
         for (int k = 0; k < 2; k++)
             lighting_forget(lightings[k], NULL);
         example->finish();

@@ -65,7 +65,7 @@ TEST(double_is_as_good_as_twice_its_digits)
     static const char *const names[] = {"none",     "sphere", "box",   "quad",  "disc",
                                         "cylinder", "cone",   "torus", "teapot"};
     RandomMeshes shapes = {.first = NULL};
-    for (SolidKind kind = SOLID_SPHERE; kind <= SOLID_TEAPOT; kind++) {
+    for (SolidKind kind = SOLID_SPHERE; kind <= SOLID_TEAPOT; kind++)
         for (int meshes = 0; meshes < 2; meshes++) {
             Error error = {0, 0, 0, 0};
             if (kind == SOLID_TEAPOT && !meshes)
@@ -89,7 +89,6 @@ TEST(double_is_as_good_as_twice_its_digits)
             assert_true(error.depth < 1e-11);
             assert_int_equal(error.elsewhere, 0);
         }
-    }
     random_meshes_close(&shapes);
 }
 

@@ -89,11 +89,8 @@ static void write_set(const Effects *effects, char text[1024])
         const LightGroup *group = &effects->groups[g];
         const LightTerms *terms = &group->terms;
         put(text, true, "|");
-        for (int i = 0; i < group->count; i++) {
-            char number[16];
-            snprintf(number, sizeof number, "%d", group->lights[i]);
-            put(text, true, number);
-        }
+        for (int i = 0; i < group->count; i++)
+            put(text, true, formatted("%d", group->lights[i]));
         put(text, true, terms->any ? "any" : kinds[terms->kind]);
         put(text, terms->ambient, "ambient");
         put(text, terms->diffuse, "diffuse");
@@ -133,9 +130,15 @@ static void assert_said(const char *line)
     free(text);
 }
 
+/* The set after a change. */
+#define AFTER(change, expected) ((void)(change), assert_set(expected))
+
+static const char PLAIN[] = "normals unit_fragment | 0 directional diffuse";
+static const char UNEVEN[] = "normals matrix unit_vertex unit_fragment | 0 directional diffuse";
+
 TEST_WITH(0, diffuse_light_alone_needs_normals_and_no_more, set_up, NULL)
 {
-    assert_set("normals unit_fragment | 0 directional diffuse");
+    assert_set(PLAIN);
     assert_said("light 0: directional, computed at the fragments");
     assert_said("diffuse: in light and material");
     assert_said("without specular: black in light or material");
@@ -156,21 +159,16 @@ TEST_WITH(0, diffuse_light_alone_needs_normals_and_no_more, set_up, NULL)
 
 TEST_WITH(0, a_light_that_is_off_or_black_is_left_out, set_up, NULL)
 {
-    world.lights[0].off = true;
-    assert_set("");
+    AFTER(world.lights[0].off = true, "");
     assert_said("without light 0: it is off");
     assert_said("without normals: no term depends on them");
     world.lights[0].off = false;
-    world.lights[0].diffuse = BLACK;
-    assert_set("");
+    AFTER(world.lights[0].diffuse = BLACK, "");
     assert_said("without light 0: the material reflects none of its colour");
     world.lights[0].diffuse = RED;
-    world.object.front.diffuse = GREEN;
-    assert_set("");
-    world.lights[0].diffuse = (Vec3){0, 0, 1};
-    assert_set("");
-    world.scene.light_count = 0;
-    assert_set("");
+    AFTER(world.object.front.diffuse = GREEN, "");
+    AFTER((world.lights[0].diffuse = (Vec3){0, 0, 1}), "");
+    AFTER(world.scene.light_count = 0, "");
 }
 
 TEST_WITH(0, a_light_whose_cone_misses_the_object_is_left_out, set_up, NULL)
@@ -183,31 +181,24 @@ TEST_WITH(0, a_light_whose_cone_misses_the_object_is_left_out, set_up, NULL)
                      .cutoff = 10};
     assert_set("normals unit_fragment | 0 spot diffuse");
     assert_said("spot: only within its cone, without falloff: its exponent is 0");
-    light->direction = (Vec3){0, 0, 1};
-    assert_set("");
+    AFTER((light->direction = (Vec3){0, 0, 1}), "");
     assert_said("without light 0: its cone misses the object");
-    light->direction = (Vec3){0, 1, -1};
-    assert_set("");
+    AFTER((light->direction = (Vec3){0, 1, -1}), "");
     light->cutoff = 90; /* the cone is a half space that contains the object */
     assert_set("normals unit_fragment | 0 spot diffuse");
-    light->direction = (Vec3){0, 0, 1};
-    assert_set("");
+    AFTER((light->direction = (Vec3){0, 0, 1}), "");
     light->position = (Vec3){0, 0, 0}; /* inside the object, in any direction */
-    light->cutoff = 1;
-    assert_set("normals unit_fragment | 0 spot diffuse");
+    AFTER(light->cutoff = 1, "normals unit_fragment | 0 spot diffuse");
 }
 
 TEST_WITH(0, even_ambient_light_is_part_of_the_base, set_up, NULL)
 {
     world.lights[0].diffuse = BLACK;
-    shine_ambient();
-    assert_set("base");
+    AFTER(shine_ambient(), "base");
     assert_said("without light 0: the material reflects none of its colour but the ambient");
     world.lights[0].kind = LIGHT_POINT;
-    world.lights[0].constant = 2; /* constant */
-    assert_set("base");
-    world.lights[0].linear = 0.1;
-    assert_set("| 0 point ambient attenuation");
+    AFTER(world.lights[0].constant = 2, "base"); /* constant */
+    AFTER(world.lights[0].linear = 0.1, "| 0 point ambient attenuation");
     assert_said("ambient: varies over the surface, as the light does");
     world.lights[0] = (Light){.kind = LIGHT_SPOT,
                               .position = {0, 0, 5},
@@ -220,16 +211,12 @@ TEST_WITH(0, even_ambient_light_is_part_of_the_base, set_up, NULL)
 TEST_WITH(0, emission_and_global_ambient_light_are_the_base, set_up, NULL)
 {
     world.scene.light_count = 0;
-    world.object.front.emission = RED;
-    assert_set("base");
+    AFTER(world.object.front.emission = RED, "base");
     assert_said("base: emission or constant ambient light");
     world.object.front.emission = BLACK;
-    world.scene.global_ambient = RED;
-    assert_set("");
-    world.object.front.ambient = GREEN;
-    assert_set("");
-    world.object.front.ambient = WHITE;
-    assert_set("base");
+    AFTER(world.scene.global_ambient = RED, "");
+    AFTER(world.object.front.ambient = GREEN, "");
+    AFTER(world.object.front.ambient = WHITE, "base");
 }
 
 TEST_WITH(0, the_half_vector_is_constant_only_for_a_far_light_a_far_viewer_and_blinn_phong, set_up,
@@ -244,8 +231,7 @@ TEST_WITH(0, the_half_vector_is_constant_only_for_a_far_light_a_far_viewer_and_b
     assert_set("normals unit_fragment phong | 0 directional diffuse specular");
     assert_said("without half vector as a uniform: the Phong reflection has none");
     world.scene.reflection = REFLECTION_BLINN_PHONG;
-    world.lights[0].kind = LIGHT_POINT;
-    assert_set("normals unit_fragment | 0 point diffuse specular");
+    AFTER(world.lights[0].kind = LIGHT_POINT, "normals unit_fragment | 0 point diffuse specular");
     assert_said("without half vector as a uniform: the light is near");
     world.lights[0].kind = LIGHT_DIRECTIONAL;
     world.scene.distant_viewer = false;
@@ -256,12 +242,10 @@ TEST_WITH(0, the_half_vector_is_constant_only_for_a_far_light_a_far_viewer_and_b
 TEST_WITH(0, a_fall_off_counts_only_for_spots, set_up, NULL)
 {
     Light *light = &world.lights[0];
-    light->exponent = 8;
-    assert_set("normals unit_fragment | 0 directional diffuse");
+    AFTER(light->exponent = 8, PLAIN);
     light->kind = LIGHT_SPOT;
     light->direction = (Vec3){0, 0, -1};
-    light->cutoff = 45;
-    assert_set("normals unit_fragment | 0 spot diffuse exponent");
+    AFTER(light->cutoff = 45, "normals unit_fragment | 0 spot diffuse exponent");
     assert_said("spot: only within its cone, with falloff");
 }
 
@@ -292,16 +276,14 @@ TEST_WITH(0, vertices_or_fragments_are_lit_as_the_interpolation_says, set_up, NU
 TEST_WITH(0, constant_light_on_a_flat_triangle_moves_to_the_vertices, set_up, NULL)
 {
     world.object.mesh = &cube;
-    world.object.flat = true;
-    assert_set("normals | 0 directional diffuse at_vertex");
+    AFTER(world.object.flat = true, "normals | 0 directional diffuse at_vertex");
     assert_said("light 0: directional, computed at the vertices: constant over a flat triangle");
     shine_specular(); /* the direction to the eye varies */
     assert_set("normals local | 0 directional diffuse specular");
     assert_said("normals not normalized at the fragments: constant over a triangle");
     world.scene.distant_viewer = true;
     assert_set("normals | 0 directional diffuse specular half at_vertex");
-    world.lights[0].kind = LIGHT_POINT;
-    assert_set("normals | 0 point diffuse specular");
+    AFTER(world.lights[0].kind = LIGHT_POINT, "normals | 0 point diffuse specular");
 }
 
 static Mat4 turned(void)
@@ -317,60 +299,48 @@ static Mat4 scaled(double x, double y, double z)
 TEST_WITH(0, a_normal_matrix_is_needed_only_where_the_model_view_is_not_orthogonal, set_up, NULL)
 {
     const Mat4 turn = turned();
-    transform_by(turn);
-    assert_set("normals unit_fragment | 0 directional diffuse");
+    AFTER(transform_by(turn), PLAIN);
     transform_by(mat4_product(mat4_translate((Vec3){1, 2, -3}), turn));
-    assert_set("normals unit_fragment | 0 directional diffuse");
-    transform_by(mat4_product(turn, scaled(-1, 1, 1))); /* mirrored */
-    assert_set("normals unit_fragment | 0 directional diffuse");
-    transform_by(mat4_product(turn, scaled(0.5, 0.5, 0.5))); /* the fragments normalize */
-    assert_set("normals unit_fragment | 0 directional diffuse");
+    assert_set(PLAIN);
+    AFTER(transform_by(mat4_product(turn, scaled(-1, 1, 1))), PLAIN); /* mirrored */
+    transform_by(mat4_product(turn, scaled(0.5, 0.5, 0.5)));          /* the fragments normalize */
+    assert_set(PLAIN);
     assert_said(
         "normals not normalized at the vertices: the fragments do it, and all lengths are equal");
-    transform_by(mat4_product(turn, scaled(-3, 3, 3)));
-    assert_set("normals unit_fragment | 0 directional diffuse");
-    transform_by(mat4_product(turn, scaled(1, 1, 1.01)));
-    assert_set("normals matrix unit_vertex unit_fragment | 0 directional diffuse");
+    AFTER(transform_by(mat4_product(turn, scaled(-3, 3, 3))), PLAIN);
+    AFTER(transform_by(mat4_product(turn, scaled(1, 1, 1.01))), UNEVEN);
     assert_said("normal matrix: the model-view matrix scales unevenly or shears");
     assert_said("normals normalized at the vertices: the transform changes their length");
     Mat4 shear = mat4_identity();
     shear.m[4] = 0.5;
-    transform_by(mat4_product(turn, shear));
-    assert_set("normals matrix unit_vertex unit_fragment | 0 directional diffuse");
-    transform_by(scaled(1, 1, 0)); /* flattened */
-    assert_set("normals matrix unit_vertex unit_fragment | 0 directional diffuse");
+    AFTER(transform_by(mat4_product(turn, shear)), UNEVEN);
+    AFTER(transform_by(scaled(1, 1, 0)), UNEVEN); /* flattened */
     /* Their squares underflow in float, or lose digits in 16 bits, from 1/100 and 100 on. */
     static const double extremes[] = {1e-20, 0.0099, 101}, usual[] = {0.0101, 99};
     for (int i = 0; i < 3; i++) {
-        transform_by(scaled(extremes[i], extremes[i], extremes[i]));
-        assert_set("normals matrix unit_vertex unit_fragment | 0 directional diffuse");
-        transform_by(scaled(usual[i % 2], usual[i % 2], usual[i % 2]));
-        assert_set("normals unit_fragment | 0 directional diffuse");
+        AFTER(transform_by(scaled(extremes[i], extremes[i], extremes[i])), UNEVEN);
+        AFTER(transform_by(scaled(usual[i % 2], usual[i % 2], usual[i % 2])), PLAIN);
     }
 }
 
 TEST_WITH(0, uneven_scales_that_cancel_need_no_normal_matrix, set_up, NULL)
 {
     const Mat4 uneven = scaled(2, 3, 4), undone = scaled(1.0 / 2, 1.0 / 3, 1.0 / 4);
-    transform_by(mat4_product(mat4_product(turned(), uneven), undone));
-    assert_set("normals unit_fragment | 0 directional diffuse");
+    AFTER(transform_by(mat4_product(mat4_product(turned(), uneven), undone)), PLAIN);
 }
 
 TEST_WITH(0, vertices_normalize_normals_if_they_use_their_length, set_up, NULL)
 {
     world.scene.interpolation = INTERPOLATION_GOURAUD;
-    transform_by(scaled(2, 2, 2));
-    assert_set("normals unit_vertex | 0 directional diffuse at_vertex");
-    transform_by(scaled(-1, 1, 1));
-    assert_set("normals | 0 directional diffuse at_vertex");
+    AFTER(transform_by(scaled(2, 2, 2)), "normals unit_vertex | 0 directional diffuse at_vertex");
+    AFTER(transform_by(scaled(-1, 1, 1)), "normals | 0 directional diffuse at_vertex");
     transform_by(scaled(1, 2, 1));
     assert_set("normals matrix unit_vertex | 0 directional diffuse at_vertex");
     world.scene.interpolation = INTERPOLATION_PHONG;
     world.object.mesh = &cube;
     world.object.flat = true; /* no fragment normalizes: constant over a triangle */
     world.lights[0].kind = LIGHT_POINT;
-    transform_by(scaled(2, 2, 2));
-    assert_set("normals unit_vertex | 0 point diffuse");
+    AFTER(transform_by(scaled(2, 2, 2)), "normals unit_vertex | 0 point diffuse");
 }
 
 TEST_WITH(0, wrong_normals_never_need_a_matrix_of_their_own, set_up, NULL)
@@ -383,13 +353,11 @@ TEST_WITH(0, wrong_normals_never_need_a_matrix_of_their_own, set_up, NULL)
 
 TEST_WITH(0, a_closed_object_seen_from_outside_is_culled_and_has_no_back, set_up, NULL)
 {
-    world.object.closed = true;
-    assert_set("cull normals unit_fragment | 0 directional diffuse");
+    AFTER(world.object.closed = true, "cull normals unit_fragment | 0 directional diffuse");
     assert_said("culling of back faces: a closed object, seen from outside");
     world.object.two_sided = true;
     world.object.back.emission = RED;
-    world.object.back.alpha = 0.5;
-    assert_set("cull normals unit_fragment | 0 directional diffuse");
+    AFTER(world.object.back.alpha = 0.5, "cull normals unit_fragment | 0 directional diffuse");
     assert_said("without a back side: it is never seen");
     world.scene.camera.eye = (Vec3){0, 0, 1.05}; /* the near plane cuts the object */
     assert_set("two base alpha normals unit_fragment | 0 directional diffuse");
@@ -397,14 +365,12 @@ TEST_WITH(0, a_closed_object_seen_from_outside_is_culled_and_has_no_back, set_up
     assert_said("without culling: the near plane may cut the object");
     assert_said("two-sided: the back has its own material and the opposite normal");
     world.scene.camera.eye = (Vec3){0, 0, 0.5}; /* the eye is inside */
-    world.object.two_sided = false;
-    assert_set("normals unit_fragment | 0 directional diffuse");
+    AFTER(world.object.two_sided = false, PLAIN);
 }
 
 TEST_WITH(0, overexposure_is_tested_only_if_it_is_possible, set_up, NULL)
 {
-    world.scene.show_clipped = true;
-    assert_set("normals unit_fragment clipped | 0 directional diffuse");
+    AFTER(world.scene.show_clipped = true, "normals unit_fragment clipped | 0 directional diffuse");
     assert_said("overexposed pixels highlighted: requested");
     world.scene.interpolation = INTERPOLATION_GOURAUD;
     assert_set("normals clipped | 0 directional diffuse at_vertex");
@@ -417,12 +383,10 @@ TEST_WITH(0, overexposure_is_tested_only_if_it_is_possible, set_up, NULL)
 
 TEST_WITH(0, dot_products_are_clamped_unless_requested_and_under_lights_with_shadows, set_up, NULL)
 {
-    world.scene.signed_dots = true;
-    assert_set("normals unit_fragment | 0 directional diffuse signed");
+    AFTER(world.scene.signed_dots = true, "normals unit_fragment | 0 directional diffuse signed");
     assert_said("dot products not clamped: requested; where N.L is negative, the light takes "
                 "light away");
-    world.lights[0].shadows = true;
-    assert_set("normals unit_fragment | 0 directional diffuse");
+    AFTER(world.lights[0].shadows = true, PLAIN);
     assert_said("dot products clamped: none of a light with shadows arrives from behind");
 }
 
@@ -451,8 +415,7 @@ TEST_WITH(0, the_full_set_has_every_effect, set_up, NULL)
 static void assert_guarded(bool expected)
 {
     SUCCEEDS(scene_check(&world.scene, message));
-    const Effects effects = effects_of(&world.scene, &world.object);
-    assert_int_equal(effects.groups[0].guard_attenuation, expected);
+    assert_int_equal(effects_of(&world.scene, &world.object).groups[0].guard_attenuation, expected);
 }
 
 TEST_WITH(0, attenuation_is_guarded_unless_its_constant_coefficient_bounds_it, set_up, NULL)

@@ -35,9 +35,8 @@ static const char *const DECLARATIONS[] = {
 
 static void count(ShaderStage stage, const char *body, ShaderCost *operations)
 {
-    char text[2048];
     Message message = {0};
-    snprintf(text, sizeof text, "%s%s }\n", DECLARATIONS[stage], body);
+    const char *text = formatted("%s%s }\n", DECLARATIONS[stage], body);
     if (!shader_cost(text, stage, operations, &message))
         fail_msg("%s\n%s", message.text, text);
 }
@@ -143,12 +142,12 @@ TEST(functions_of_the_language_have_their_prices)
 TEST(a_loop_costs_each_of_its_turns)
 {
     for (int turns = 1; turns <= 8; turns++) {
-        char body[256];
-        snprintf(body, sizeof body,
-                 "vec3 sum = u_A; for (int i = 0; i < %d; i++) sum += u_X * u_Array[i]; "
-                 "v_Color = sum;",
-                 turns);
-        const Known known = {SHADER_VERTEX, body, {.arithmetic = 6 * turns}};
+        const Known known = {
+            SHADER_VERTEX,
+            formatted("vec3 sum = u_A; for (int i = 0; i < %d; i++) sum += u_X * u_Array[i]; "
+                      "v_Color = sum;",
+                      turns),
+            {.arithmetic = 6 * turns}};
         assert_costs(&known, 1);
     }
 }
@@ -204,10 +203,9 @@ TEST(every_branch_counts)
 
 static void assert_refused(const char *body, const char *reason)
 {
-    char text[2048];
     ShaderCost operations = {1, 2};
     Message message = {0};
-    snprintf(text, sizeof text, "%s%s }\n", DECLARATIONS[SHADER_VERTEX], body);
+    const char *text = formatted("%s%s }\n", DECLARATIONS[SHADER_VERTEX], body);
     assert_false(shader_cost(text, SHADER_VERTEX, &operations, &message));
     if (!strstr(message.text, reason) || strchr(message.text, '\n'))
         fail_msg("\"%s\" has no \"%s\", or several lines", message.text, reason);

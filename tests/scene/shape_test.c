@@ -47,7 +47,7 @@ static const struct {
 
 TEST(shapes_are_centred_and_of_their_size)
 {
-    for (int style = SHAPE_LECTURE; style <= SHAPE_TEXTBOOK; style++) {
+    for (int style = SHAPE_LECTURE; style <= SHAPE_TEXTBOOK; style++)
         for (int kind = 0; kind < SHAPE_HEAD_FACETED; kind++) {
             CLOSED(shape_close) Shape shape;
             SUCCEEDS(shape_open(&shape, (ShapeKind)kind, (ShapeStyle)style, NULL, message));
@@ -61,7 +61,6 @@ TEST(shapes_are_centred_and_of_their_size)
             }
             assert_true(extent.radius < (style == SHAPE_LECTURE ? 1.74 : 0.87));
         }
-    }
 }
 
 /* With divisions, a shape that has a formula has its mesh of that fineness. */

@@ -47,7 +47,7 @@ TEST(the_head_fits_the_unit_sphere_and_its_normals_point_outwards)
         SUCCEEDS(mesh_head(&mesh, STYLES[s].style, message));
         topology_check_sound(&mesh);
         for (size_t i = 0; i < mesh.vertex_count; i++)
-            far = fmax(far, vec3_length(vec3_from_float(mesh.vertices[i].position)));
+            far = fmax(far, vec3_length(topology_position(&mesh, i)));
         assert_true(far > 0.9 && far <= 1);
         /* A quadrilateral's halves are less than 30 degrees from its plane; smooth normals are on
          * the outer side of each triangle, even where the rim of an ear is thin. */
@@ -55,8 +55,7 @@ TEST(the_head_fits_the_unit_sphere_and_its_normals_point_outwards)
         for (size_t i = 0; i < mesh.index_count; i++) {
             Vec3 face;
             assert_true(mesh_face(&mesh, i / 3, &face));
-            assert_true(vec3_dot(face, vec3_from_float(mesh.vertices[mesh.indices[i]].normal)) >
-                        least);
+            assert_true(vec3_dot(face, topology_normal(&mesh, mesh.indices[i])) > least);
         }
     }
 }
@@ -140,7 +139,7 @@ static Vec3 limit(const Cage *cage, uint32_t point)
 {
     Vec3 sum = {0, 0, 0};
     int n = 0;
-    for (size_t q = 0; q < cage->quad_count; q++) {
+    for (size_t q = 0; q < cage->quad_count; q++)
         for (uint32_t k = 0; k < 4; k++) {
             const uint32_t *quad = cage->quads[q];
             if (quad[k] != point)
@@ -150,7 +149,6 @@ static Vec3 limit(const Cage *cage, uint32_t point)
             sum = vec3_add(sum, cage->points[quad[(k + 2) % 4]]);
             n++;
         }
-    }
     sum = vec3_add(sum, vec3_scale(cage->points[point], n * n));
     return vec3_scale(sum, 1.0 / (n * (n + 5)));
 }

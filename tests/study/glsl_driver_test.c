@@ -71,8 +71,7 @@ static GlslRun *run_open(const char *code)
                                     "uniform float u_One;\n"
                                     "void main() { vec4 a = u_A, b = u_B; a *= u_One;\n"
                                     "b *= u_One; gl_FragColor = u_One * (%s); }";
-    char text[1024];
-    snprintf(text, sizeof text, TEXT, code);
+    const char *text = formatted(TEXT, code);
     GlslTree *tree = glsl_parse(text, GLSL_FRAGMENT, NULL);
     require(tree->message_count == 0, &(Message){.text = "not parsed"});
     GlslRun *run = glsl_run_open(glsl_compile(tree));

@@ -11,15 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static Message message;
 static Results results;
-
-/* The message, empty. */
-static Message *fresh(void)
-{
-    message = (Message){0};
-    return &message;
-}
 
 static void add(const char *divisions, const char *interpolation, double error, double time)
 {
@@ -44,8 +36,8 @@ static void add(const char *divisions, const char *interpolation, double error, 
                      .fragment_operations = -1,
                      .renderer = "llvmpipe",
                      .threads = "2"};
-    assert_true(quality_choose(&row.quality, "divisions", divisions, fresh()));
-    assert_true(quality_choose(&row.quality, "interpolation", interpolation, &message));
+    SUCCEEDS(quality_choose(&row.quality, "divisions", divisions, message));
+    SUCCEEDS(quality_choose(&row.quality, "interpolation", interpolation, message));
     results_add(&results, &row);
 }
 
@@ -63,7 +55,7 @@ static char *table(bool only_efficient)
     size_t size = 0;
     FILE *file = open_memstream(&text, &size);
     assert_non_null(file);
-    assert_true(report_table(&results, "sphere", only_efficient, file, fresh()));
+    SUCCEEDS(report_table(&results, "sphere", only_efficient, file, message));
     fclose(file);
     return text;
 }
@@ -158,15 +150,12 @@ TEST_WITH(0, a_table_has_the_gpu_s_times_if_they_are_known, enter, leave)
 
 TEST_WITH(0, no_rows_and_full_disks_are_reported, enter, leave)
 {
-    assert_false(report_table(&results, "cube", false, stdout, fresh()));
-    assert_string_equal(message.text, "cube: nothing was measured");
-    assert_false(report_plot(&results, "cube", "", ".", fresh()));
-    assert_string_equal(message.text, "cube: nothing was measured");
+    FAILS(report_table(&results, "cube", false, stdout, message), "cube: nothing was measured");
+    FAILS(report_plot(&results, "cube", "", ".", message), "cube: nothing was measured");
     add_four();
     FILE *full = fopen("/dev/full", "w");
     assert_non_null(full);
-    assert_false(report_table(&results, "sphere", false, full, fresh()));
-    assert_non_null(strstr(message.text, "No space left on device"));
+    FAILS_WITH(report_table(&results, "sphere", false, full, message), "No space left on device");
     fclose(full);
 }
 
@@ -195,9 +184,9 @@ static char *drawn(const char *name)
     return svg;
 }
 
-static bool plot(const char *title)
+static bool plot(const char *title, Message *message)
 {
-    return report_plot(&results, "sphere", title, "out", fresh());
+    return report_plot(&results, "sphere", title, "out", message);
 }
 
 TEST_WITH(0, a_plot_names_the_efficient_ones, enter, leave)
@@ -205,7 +194,7 @@ TEST_WITH(0, a_plot_names_the_efficient_ones, enter, leave)
     if (!has_gnuplot())
         skip();
     add_four();
-    require(plot("It's `date` \"quoted\" \\n $HOME @x ^2_3 <&> {/Bold x}"), &message);
+    SUCCEEDS(plot("It's `date` \"quoted\" \\n $HOME @x ^2_3 <&> {/Bold x}", message));
     char *svg = drawn("sphere");
     assert_non_null(strstr(svg, "It's `date` \"quoted\" \\n $HOME @x ^2_3 &lt;&amp;> {/Bold x}"));
     assert_non_null(strstr(svg, ">interpolation=gouraud<"));
@@ -221,19 +210,18 @@ TEST_WITH(0, any_number_of_rows_can_be_plotted, enter, leave)
     if (!has_gnuplot())
         skip();
     add("8", "flat", 0, 1); /* one row, without error */
-    require(plot("one"), &message);
+    SUCCEEDS(plot("one", message));
     free(drawn("sphere"));
     add("12", "flat", NAN, 1);
     add("16", "flat", 1, 0);
     add("24", "flat", 1, NAN);
-    require(plot("one that counts"), &message);
+    SUCCEEDS(plot("one that counts", message));
     for (int i = 0; i < 500; i++) {
-        char text[32];
-        snprintf(text, sizeof text, "%s", QUALITY_AXES[AXIS_DIVISIONS].choices[i % 14]);
-        add(text, QUALITY_AXES[AXIS_INTERPOLATION].choices[i % 3], 1e6 / (i + 1), 1e-3 * (i + 1));
+        add(formatted("%s", QUALITY_AXES[AXIS_DIVISIONS].choices[i % 14]),
+            QUALITY_AXES[AXIS_INTERPOLATION].choices[i % 3], 1e6 / (i + 1), 1e-3 * (i + 1));
         results.rows[results.count - 1].quality.choice[AXIS_OUTPUT] = (unsigned char)(i % 2);
     }
-    require(plot("many"), &message);
+    SUCCEEDS(plot("many", message));
     free(drawn("sphere"));
 }
 
@@ -247,8 +235,7 @@ TEST_WITH(0, curves_leave_out_unknown_values, enter, leave)
     for (int i = 0; i < 4; i++) {
         const ReportAxes axes = {"title", "x", "y", i % 2 == 1, i / 2 == 1, i ? "a foot" : NULL,
                                  i == 3};
-        if (!report_curves(&axes, series, 3, "out", "curves", fresh()))
-            fail_msg("%s", message.text);
+        SUCCEEDS(report_curves(&axes, series, 3, "out", "curves", message));
         char *svg = drawn("curves");
         assert_non_null(strstr(svg, "none's"));
         assert_int_equal(strstr(svg, "a foot") != NULL, i > 0);
@@ -278,10 +265,8 @@ TEST_WITH(0, gnuplot_errors_are_passed_on, enter, leave)
             assert_int_equal(chmod("bin/gnuplot", 0755), 0);
         }
         setenv("PATH", "bin", 1);
-        const bool done = plot("title");
+        FAILS(plot("title", message), cases[i][1]);
         setenv("PATH", before, 1);
-        assert_false(done);
-        assert_string_equal(message.text, cases[i][1]);
         assert_int_equal(testing_entries("out"), 0);
     }
     free(before);
@@ -292,20 +277,20 @@ TEST_WITH(0, a_plot_without_a_folder_is_refused, enter, leave)
     if (!has_gnuplot())
         skip();
     add_four();
-    assert_false(report_plot(&results, "sphere", "", "nowhere", fresh()));
-    assert_non_null(strstr(message.text, "nowhere/sphere.svg: the folder nowhere/ does not exist"));
-    assert_false(report_curves(&(ReportAxes){"", "", "", false, false, NULL, false}, NULL, 0, "out",
-                               "../x", fresh()));
-    assert_non_null(strstr(message.text, "../x: cannot be a file's name"));
+    FAILS_WITH(report_plot(&results, "sphere", "", "nowhere", message),
+               "nowhere/sphere.svg: the folder nowhere/ does not exist");
+    FAILS_WITH(report_curves(&(ReportAxes){"", "", "", false, false, NULL, false}, NULL, 0, "out",
+                             "../x", message),
+               "../x: cannot be a file's name");
 }
 
 /* Sheets. */
 
 enum { SIDE = 16, SCALE = 20, PANEL = SIDE * SCALE, TOP = 32 };
 
-static bool sheet(const Image *image, const Reference *exact, const char *caption)
+static bool sheet(const Image *image, const Reference *exact, const char *caption, Message *message)
 {
-    return report_sheet(image, exact, caption, "sheet.png", fresh());
+    return report_sheet(image, exact, caption, "sheet.png", message);
 }
 
 /* The pixel of a sheet that shows (x, y) in a panel. */
@@ -327,7 +312,7 @@ static Image read_png(const char *path)
     Image image;
     assert_true(png_image_begin_read_from_file(&png, path));
     png.format = PNG_FORMAT_RGBA;
-    require(image_open(&image, (int)png.width, (int)png.height, IMAGE_BYTE, &message), &message);
+    SUCCEEDS(image_open(&image, (int)png.width, (int)png.height, IMAGE_BYTE, message));
     assert_true(png_image_finish_read(&png, NULL, image.pixels, 0, NULL));
     return image;
 }
@@ -339,8 +324,8 @@ TEST_WITH(0, a_sheet_shows_what_is_different, enter, leave)
     const Reference exact = {.width = SIDE, .height = SIDE, .color = colors};
     static const double steps[SIDE] = {0, 0.3, 0.5, 0.6, 1, 1.5, 2, 3, 5, 8, 10, 20, 50, 90, 120};
     for (int type = IMAGE_BYTE; type <= IMAGE_FLOAT; type++) {
-        assert_true(image_open(&image, SIDE, SIDE, (ImageType)type, fresh()));
-        for (size_t i = 0; i < SIDE * SIDE; i++) {
+        SUCCEEDS(image_open(&image, SIDE, SIDE, (ImageType)type, message));
+        for (size_t i = 0; i < SIDE * SIDE; i++)
             for (size_t c = 0; c < 3; c++) {
                 const double more = c == i % 3 ? steps[i % SIDE] / 255 : 0;
                 colors[3 * i + c] = (float)(100.0 / 255 + more);
@@ -349,7 +334,6 @@ TEST_WITH(0, a_sheet_shows_what_is_different, enter, leave)
                 else
                     ((float *)image.pixels)[4 * i + c] = 100.0f / 255;
             }
-        }
         /* As bright as can be shown, and brighter: the same to the eye. */
         const size_t bright = SIDE * SIDE - 1;
         for (size_t c = 0; c < 3; c++) {
@@ -361,11 +345,11 @@ TEST_WITH(0, a_sheet_shows_what_is_different, enter, leave)
         }
         if (type == IMAGE_FLOAT)
             ((float *)image.pixels)[4 * 15] = NAN;
-        if (!sheet(&image, &exact,
-                   "A caption, rather long, so that it has to be broken at some "
-                   "blank; it is broken there, and goes on below, to its end, "
-                   "which comes here.\nAnd another line."))
-            fail_msg("%s", message.text);
+        SUCCEEDS(sheet(&image, &exact,
+                       "A caption, rather long, so that it has to be broken at some "
+                       "blank; it is broken there, and goes on below, to its end, "
+                       "which comes here.\nAnd another line.",
+                       message));
         image_close(&image);
         read = read_png("sheet.png");
         assert_int_equal(read.width, 3 * PANEL + 40);
@@ -392,12 +376,11 @@ TEST_WITH(0, pictures_of_two_sizes_make_no_sheet, enter, leave)
     CLOSED(image_close) Image image;
     float colors[3] = {0};
     const Reference exact = {.width = 1, .height = 1, .color = colors};
-    assert_true(image_open(&image, 2, 1, IMAGE_BYTE, fresh()));
-    assert_false(sheet(&image, &exact, ""));
-    assert_string_equal(message.text,
-                        "sheet.png: the drawn picture has 2x1 pixels, the exact one 1x1");
+    SUCCEEDS(image_open(&image, 2, 1, IMAGE_BYTE, message));
+    FAILS(sheet(&image, &exact, "", message),
+          "sheet.png: the drawn picture has 2x1 pixels, the exact one 1x1");
     image.width = 1;
-    assert_true(sheet(&image, &exact, "")); /* the smallest, without a caption */
+    assert_true(sheet(&image, &exact, "", NULL)); /* the smallest, without a caption */
 }
 
 TEST(a_cost_within_the_noise_has_no_number)

@@ -35,9 +35,8 @@ double world_difference(const Reference *a, const Reference *b);
 /* Whether all values are the same, bit by bit, but for depths and lights. */
 bool world_same(const Reference *a, const Reference *b);
 
-/* How far the pixels that `mixed` names are from plain means of grid * grid samples, at most, in
- * steps of 1/255. `count`: of them. */
-double world_distance_from_means(const Reference *picture, int grid,
-                                 bool (*mixed)(const Reference *picture, int pixel), int *count);
+/* The pixels that `mixed` names, more than `least`, are plain means of grid * grid samples. */
+void world_assert_means(const Reference *picture, int grid,
+                        bool (*mixed)(const Reference *picture, int pixel), int least);
 
 #endif

@@ -23,13 +23,12 @@ QuadMatrix quad_from(Mat4 a)
 QuadMatrix quad_product(const QuadMatrix *a, const QuadMatrix *b)
 {
     QuadMatrix c;
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 4; i++)
         for (int j = 0; j < 4; j++) {
             c.a[i][j] = 0;
             for (int k = 0; k < 4; k++)
                 c.a[i][j] += a->a[i][k] * b->a[k][j];
         }
-    }
     return c;
 }
 
@@ -60,14 +59,13 @@ static void swap(Quad *a, Quad *b)
 static void find_pivot(Quad w[4][8], int k, int *row, int *column)
 {
     *row = *column = k;
-    for (int i = k; i < 4; i++) {
+    for (int i = k; i < 4; i++)
         for (int j = k; j < 4; j++) {
             if (quad_abs(w[i][j]) > quad_abs(w[*row][*column])) {
                 *row = i;
                 *column = j;
             }
         }
-    }
 }
 
 Quad quad_inverse(const QuadMatrix *a, QuadMatrix *inverse)
@@ -153,14 +151,13 @@ double quad_angle(const QuadMatrix *a, const QuadMatrix *b, Vec3 direction)
 double quad_orthonormality_error(Mat4 r)
 {
     Quad sum = 0;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
             Quad dot = i == j ? -1 : 0;
             for (int k = 0; k < 3; k++)
                 dot += (Quad)r.m[4 * k + i] * (Quad)r.m[4 * k + j];
             sum += dot * dot;
         }
-    }
     return sqrt((double)sum);
 }
 

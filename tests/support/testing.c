@@ -28,13 +28,11 @@ int testing_run(int list, const char *name, CMFixtureFunction setup, CMFixtureFu
 
 int testing_step(int step)
 {
-    const char *everything = getenv("LIGHTING_TEST_LONG"), *backend = getenv("LIGHTING_BACKEND");
+    const char *everything = getenv("LIGHTING_TEST_LONG");
     const int every = everything ? atoi(everything) : 0;
     if (every > 0)
         return every < 2 * step ? every : 2 * step;
-    const bool few = getenv("ASAN_OPTIONS") || getenv("LIGHTING_TEST_SAMPLE") ||
-                     (backend && strcmp(backend, "osmesa") == 0);
-    return few ? 4 * step : 2 * step;
+    return 4 * step;
 }
 
 int testing_part(int count, int step)
@@ -79,6 +77,25 @@ unsigned long long testing_seed(unsigned long long usual)
     const unsigned long long seed = text && *text ? strtoull(text, NULL, 0) : usual;
     printf("LIGHTING_TEST_SEED=%llu\n", seed);
     return seed;
+}
+
+void testing_near(double value, double expected, double tolerance)
+{
+    if (!(fabs(value - expected) <= tolerance * fabs(expected)))
+        fail_msg("%.17g instead of %.17g", value, expected);
+}
+
+const char *formatted(const char *format, ...)
+{
+    static char texts[16][8192];
+    static size_t last;
+    char *text = texts[++last % 16];
+    va_list arguments;
+    va_start(arguments, format);
+    const int length = vsnprintf(text, sizeof texts[0], format, arguments);
+    va_end(arguments);
+    assert_in_range(length, 0, sizeof texts[0] - 1);
+    return text;
 }
 
 Message testing_failure;

@@ -62,13 +62,19 @@ int testing_run(int list, const char *name, CMFixtureFunction setup, CMFixtureFu
         return testing_run(0, name, setup, teardown);                                              \
     }
 
+static const double PI __attribute__((unused)) = 3.14159265358979323846;
+
+/* Fails the test unless `value` is within `tolerance` of `expected`, relative to it. */
+void testing_near(double value, double expected, double tolerance);
+
+/* printf's text, valid until the 16th call after it. */
+const char *formatted(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
 /* Exit code of a test that this machine cannot run. */
 enum { EXIT_SKIPPED = 77 };
 
-/* Of many similar cases the short form of the tests takes every `2 * step`-th; on the second
- * backend, under AddressSanitizer and with LIGHTING_TEST_SAMPLE, which tests/systems/run --sample
- * sets, every `4 * step`-th; the long form every LIGHTING_TEST_LONG-th at least, which tests/run
- * sets: with --all to 1. */
+/* Of many similar cases the short form of the tests takes every `4 * step`-th; the long form every
+ * LIGHTING_TEST_LONG-th at least, which tests/run sets: with --all to 1. */
 int testing_step(int step);
 
 /* Of `count` random cases as many as with a step, at least one. */

@@ -9,6 +9,16 @@ double topology_distance(Vec3 a, Vec3 b)
     return vec3_length(vec3_subtract(a, b));
 }
 
+Vec3 topology_position(const Mesh *mesh, size_t vertex)
+{
+    return vec3_from_float(mesh->vertices[vertex].position);
+}
+
+Vec3 topology_normal(const Mesh *mesh, size_t vertex)
+{
+    return vec3_from_float(mesh->vertices[vertex].normal);
+}
+
 Vec3 topology_corner(const Mesh *mesh, size_t index)
 {
     return vec3_from_float(mesh->vertices[mesh->indices[index]].position);
@@ -106,6 +116,24 @@ void topology_check_sound(const Mesh *mesh)
         assert_true(fabs(length - 1) <= 0.44 * FLT_EPSILON);
         assert_true(isfinite(vec3_length(vec3_from_float(mesh->vertices[i].position))));
     }
+}
+
+void topology_check_outward(const Mesh *mesh, size_t boundary)
+{
+    topology_check_sound(mesh);
+    for (size_t i = 0; i < mesh->index_count; i++) {
+        const Vec3 face = topology_face(mesh, i / 3);
+        assert_true(vec3_length(face) > 0);
+        assert_true(vec3_dot(face, topology_normal(mesh, mesh->indices[i])) > 0);
+    }
+    assert_int_equal(topology_open_edges(mesh), boundary);
+}
+
+void topology_check_seam(const MeshVertex *vertices, size_t rows, size_t columns)
+{
+    for (size_t j = 0; j < rows; j++)
+        assert_memory_equal(&vertices[j * (columns + 1)], &vertices[j * (columns + 1) + columns],
+                            sizeof *vertices);
 }
 
 void topology_check_zeroed(const Mesh *mesh)

@@ -10,6 +10,9 @@
 
 double topology_distance(Vec3 a, Vec3 b);
 
+Vec3 topology_position(const Mesh *mesh, size_t vertex);
+Vec3 topology_normal(const Mesh *mesh, size_t vertex);
+
 /* The position that an index leads to. */
 Vec3 topology_corner(const Mesh *mesh, size_t index);
 
@@ -34,6 +37,13 @@ void topology_check_indices(const Mesh *mesh);
 
 /* The same, and unless positions are finite and normals are unit vectors. */
 void topology_check_sound(const Mesh *mesh);
+
+/* The same, and unless its triangles have an area, are counter-clockwise on the side of their
+ * corners' normals, and have `boundary` open edges. */
+void topology_check_outward(const Mesh *mesh, size_t boundary);
+
+/* Fails the test unless each of `rows` rows ends with its first vertex. */
+void topology_check_seam(const MeshVertex *vertices, size_t rows, size_t columns);
 
 /* Fails the test unless the mesh is zeroed. */
 void topology_check_zeroed(const Mesh *mesh);

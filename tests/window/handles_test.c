@@ -68,7 +68,7 @@ TEST(a_point_light_follows_the_pointer_in_a_plane)
         scene.camera.eye = vec3_scale((Vec3){2, 1, 3}, far);
         scene.camera.far = 100 * far;
         lights[0].position = vec3_scale((Vec3){0, 1, 1.5}, far);
-        for (double x = 45; x < 340; x += 17) {
+        for (double x = 45; x < 340; x += 17)
             for (double y = 12; y < 210; y += 13) {
                 double seen_x, seen_y;
                 Vec3 at;
@@ -78,7 +78,6 @@ TEST(a_point_light_follows_the_pointer_in_a_plane)
                 assert_true(fabs(depth_of(at) - depth_of(lights[0].position)) < 0.01 * far);
                 assert_true(fabs(at.x * 100 - round(at.x * 100)) < 1e-9 || far > 1);
             }
-        }
     }
 }
 
@@ -86,7 +85,7 @@ TEST(a_directional_light_turns)
 {
     int followed = 0;
     set_up();
-    for (double x = 45; x < 340; x += 17) {
+    for (double x = 45; x < 340; x += 17)
         for (double y = 12; y < 210; y += 13) {
             double seen_x, seen_y;
             Vec3 at;
@@ -97,7 +96,6 @@ TEST(a_directional_light_turns)
             /* The hemisphere that it was in, towards the eye. */
             assert_true(depth_of(at) < depth_of((Vec3){0, 0, 0}) + 0.05);
         }
-    }
     assert_true(followed > 100);
 }
 

@@ -196,13 +196,12 @@ TEST(test_it_is_drawn_at_its_position)
     canvas_clear(&canvas, (Vec3){1, 1, 1}, 1);
     draw_panel(&content, 1);
     CLOSED(image_close) Image image = read_picture();
-    for (int y = 0; y < 700; y++) {
+    for (int y = 0; y < 700; y++)
         for (int x = 0; x < 1000; x++) {
             assert_int_equal(pixel(&image, x, y)[3], 255); /* what was opaque is opaque */
             if (x < LEFT || y < 8 || x >= LEFT + 340)
                 assert_int_equal(pixel(&image, x, y)[0], 255);
         }
-    }
     /* Between the rows: the white behind shines through. */
     const unsigned char *through = pixel(&image, LEFT + 332, 100);
     assert_true(through[0] > 255 / 20 && through[0] < 255 / 4);

@@ -38,14 +38,13 @@ bool judge_difference(const Image *a, const Image *b, const Reference *exact, Im
 /* Copies a picture into a larger one, each pixel as a square. */
 static void paste(const Image *from, int times, int left, int top, Image *to)
 {
-    for (int y = 0; y < times * from->height; y++) {
+    for (int y = 0; y < times * from->height; y++)
         for (int x = 0; x < times * from->width; x++) {
             const size_t source = (size_t)(y / times) * (size_t)from->width + (size_t)(x / times);
             const size_t target = (size_t)(top + y) * (size_t)to->width + (size_t)(left + x);
             memcpy((unsigned char *)to->pixels + 4 * target,
                    (const unsigned char *)from->pixels + 4 * source, 4);
         }
-    }
 }
 
 void judge_value(const LabPictures *pictures, int number, const SubmissionFiles *files,

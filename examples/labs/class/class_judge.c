@@ -4,19 +4,15 @@
  */
 #include "labs/class/class_judge.h"
 
-#include "base/input.h"
 #include "base/memory.h"
 #include "base/progress.h"
 #include "labs/sandbox/sandboxed_check.h"
 #include "labs/sandbox/source.h"
 #include "labs/submission/verdict_json.h"
 
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
-
-enum { ARCHIVE_MAX = 64 << 20 }; /* bytes */
 
 /* One submission being judged. */
 typedef struct Job {
@@ -75,16 +71,6 @@ static bool give(Judging *judging, Job *job, VerdictKind kind, const char *sente
     return settle(judging, job, message);
 }
 
-static bool hash_archive(const char *path, uint64_t *hash, Message *message)
-{
-    size_t size;
-    char *bytes = input_read(AT_FDCWD, path, "the archive", ARCHIVE_MAX, &size, message);
-    const bool done = bytes != NULL;
-    *hash = done ? source_hash_bytes(SOURCE_HASH_START, bytes, size) : SOURCE_HASH_START;
-    free(bytes);
-    return done;
-}
-
 static bool stands(const Judging *judging, const Job *job)
 {
     return !judging->of->options->again &&
@@ -120,7 +106,8 @@ static bool hash_found(const Found *found, const Lab *lab, char archive[PATH_MAX
         *hash = source_hash(files);
     bundle_close(files);
     free(files);
-    const bool hashed = done && (!archive[0] || hash_archive(archive, hash, why));
+    const bool hashed =
+        done && (!archive[0] || source_hash_file(archive, "the archive", hash, why));
     *hash ^= lab->hash + (uint64_t)found->days_late;
     return hashed;
 }
@@ -192,7 +179,7 @@ static Job *new_job(void)
 static bool fill(Judging *judging, const Found *const queue[], int *next, int slots,
                  Message *message)
 {
-    for (int slot = 0; slot < slots; slot++) {
+    for (int slot = 0; slot < slots; slot++)
         while (!judging->jobs[slot] && queue[*next]) {
             bool ended = true;
             Job *job = new_job();
@@ -204,7 +191,6 @@ static bool fill(Judging *judging, const Found *const queue[], int *next, int sl
             if (!done)
                 return false;
         }
-    }
     return true;
 }
 

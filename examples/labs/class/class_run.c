@@ -5,6 +5,7 @@
 #include "base/input.h"
 #include "base/memory.h"
 #include "base/output.h"
+#include "base/paths.h"
 #include "base/version.h"
 #include "labs/sandbox/source.h"
 
@@ -13,18 +14,17 @@
 #include <jansson.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 enum { FILE_MAX = 4 << 20, NAMED_MAX = 5 };
 
 static const char NAME[] = "run.json";
-static const char FIELDS[] = "{s:s, s:s, s:s, s:i, s:i, s:I, s:i, s:b, s:o}";
+static const char FIELDS[] = "{s:s, s:s, s:s, s:s, s:s, s:i, s:i, s:I, s:i, s:b, s:o}";
 
-/* "60 submissions, 0123456789abcdef": the whole class, of which each part has some, with the lab's
- * files and who is late. */
-static void describe_class(const Lab *lab, const FoundList *list, char text[64])
+/* "60 submissions, 0123456789abcdef": the whole class, of which each part has some, with who is
+ * late. */
+static void describe_class(const FoundList *list, char text[64])
 {
-    uint64_t hash = lab->hash;
+    uint64_t hash = SOURCE_HASH_START;
     for (int i = 0; i < list->count; i++) {
         const Found *found = &list->items[i];
         hash = source_hash_bytes(hash, found->folder, strlen(found->folder) + 1);
@@ -36,16 +36,22 @@ static void describe_class(const Lab *lab, const FoundList *list, char text[64])
 bool class_run_write(const ClassOptions *options, const Lab *lab, const FoundList *list,
                      Message *message)
 {
-    char path[PATH_MAX], class[64];
+    char path[PATH_MAX], class[64], files[20], program[20];
+    uint64_t hash;
+    if (!paths_program(path, message) || !source_hash_file(path, path, &hash, message))
+        return false;
+    snprintf(files, sizeof files, "%016" PRIx64, lab->hash);
+    snprintf(program, sizeof program, "%016" PRIx64, hash);
     json_t *students = json_array();
-    describe_class(lab, list, class);
+    describe_class(list, class);
     for (int i = 0; i < list->count; i++)
         if (class_in_part(options, list->items[i].folder))
             json_array_append_new(students, json_string(list->items[i].folder));
-    json_t *run = json_pack(FIELDS, "lab", lab->name, "class", class, "version", VERSION, "part",
-                            options->part.number, "parts", options->part.count, "seed",
-                            (json_int_t)options->seed, "limit", (int)options->limit,
-                            "deterministic", options->deterministic, "students", students);
+    json_t *run = json_pack(FIELDS, "lab", lab->name, "class", class, "version", VERSION,
+                            "lab's files", files, "program", program, "part", options->part.number,
+                            "parts", options->part.count, "seed", (json_int_t)options->seed,
+                            "limit", (int)options->limit, "deterministic", options->deterministic,
+                            "students", students);
     char *text = run ? json_dumps(run, JSON_INDENT(2)) : NULL;
     const bool done = text ? output_path(path, options->output, NAME, message) &&
                                  output_write(path, text, strlen(text), message)
@@ -63,10 +69,10 @@ static int whole_number(const json_t *run, const char *key)
 static bool is_whole(json_t *run)
 {
     const json_t *students = json_object_get(run, "students");
-    bool whole =
-        json_unpack_ex(run, NULL, JSON_VALIDATE_ONLY, FIELDS, "lab", "class", "version", "part",
-                       "parts", "seed", "limit", "deterministic", "students") == 0 &&
-        whole_number(run, "parts") <= PARTS_MAX;
+    bool whole = json_unpack_ex(run, NULL, JSON_VALIDATE_ONLY, FIELDS, "lab", "class", "version",
+                                "lab's files", "program", "part", "parts", "seed", "limit",
+                                "deterministic", "students") == 0 &&
+                 whole_number(run, "parts") <= PARTS_MAX;
     for (size_t i = 0; i < json_array_size(students); i++)
         whole &= json_is_string(json_array_get(students, i));
     return whole;
@@ -94,8 +100,8 @@ static json_t *read_run(const char *folder, Message *message)
 /* The same class, judged in the same way. */
 static bool is_alike(const json_t *a, const json_t *b, char *const folders[2], Message *message)
 {
-    static const char *const keys[] = {"lab",  "class", "version",      "parts",
-                                       "seed", "limit", "deterministic"};
+    static const char *const keys[] = {"lab",   "lab's files", "class", "version",      "program",
+                                       "parts", "seed",        "limit", "deterministic"};
     for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++) {
         const json_t *values[2] = {json_object_get(a, keys[i]), json_object_get(b, keys[i])};
         if (json_equal(values[0], values[1]))

@@ -128,9 +128,7 @@ bool class_store_open(ClassStore *store, const char *folder, Message *notes, Mes
     char path[PATH_MAX];
     *store = (ClassStore){.lock = -1};
     if (!class_store_path(folder, NULL, NULL, path, message) || !output_folder(folder, message) ||
-        !output_folder(path, message))
-        return false;
-    if (!output_path(path, folder, ".lock", message))
+        !output_folder(path, message) || !output_path(path, folder, ".lock", message))
         return false;
     const int lock = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0644);
     if (lock < 0)

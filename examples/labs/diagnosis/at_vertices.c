@@ -85,10 +85,26 @@ static double apart_with(Derivation *all, Values corners[POINT_CORNERS], int nod
     return apart;
 }
 
+/* Which value of the submission's vertex shader is that of the right fragment shader's node at the
+ * last corner: its number among `values`; below 0: none. */
+static int find_own(Derivation *all, int node, Values *values, Values *right)
+{
+    all->points.corner = POINT_CORNERS;
+    values_trace(&all->points, &all->right[0], &all->right[1], all->order[0], right);
+    all->points.corner = 0;
+    values_trace(&all->points, &all->own[0], &all->own[1], all->order[0], values);
+    for (int i = 0; i < values->count; i++)
+        for (int k = 0; k < right->count && values->items[i].stage == GLSL_VERTEX; k++)
+            if (right->items[k].stage == GLSL_FRAGMENT && right->items[k].node == node &&
+                values_equal(values, i, right, k))
+                return i;
+    return -1;
+}
+
 bool at_vertices_explain(Derivation *all, Verdict *verdict)
 {
     Values *values = memory_new(1 + POINT_CORNERS, sizeof *values);
-    char name[64], look[128];
+    char name[64], look[VERDICT_SENTENCE_SIZE];
     bool found = false;
     values_trace(&all->points, &all->right[0], &all->right[1], all->order[0], values);
     for (int i = values->count - 1; i >= 0 && !found; i--) {
@@ -102,9 +118,14 @@ bool at_vertices_explain(Derivation *all, Verdict *verdict)
         if (!found)
             continue;
         const bool light = strcmp(what, "gl_FragColor") == 0;
-        snprintf(name, sizeof name, "%s at the vertices", light ? "light" : what);
-        snprintf(look, sizeof look, "the fragment shader: compute %.40s there",
-                 light ? "the light" : what);
+        const int own = find_own(all, values->items[i].node, values + 1, values + 2);
+        if (own >= 0) {
+            what = all->own[0].tree->symbols[values[1].items[own].symbol].name;
+            derivation_place(all, GLSL_VERTEX, values[1].items[own].node, look, sizeof look);
+        } else
+            snprintf(look, sizeof look, "the fragment shader: compute %.40s there",
+                     light ? "the light" : what);
+        snprintf(name, sizeof name, "%.40s at the vertices", light ? "light" : what);
         verdict_add_mistake(verdict, name,
                             "It is computed at the vertices and interpolated: the mesh shows.",
                             look, 0.9);

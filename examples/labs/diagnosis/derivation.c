@@ -11,20 +11,33 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Of an array or a structure each part, but not what those have in turn. */
 static void take_events(const PointShader *shader, GlslStage stage, Values *values)
 {
-    for (int i = 0; i < shader->run->event_count && values->count < MAX_VALUES; i++) {
+    const GlslTree *tree = shader->tree;
+    for (int i = 0; i < shader->run->event_count; i++) {
         const GlslEvent *event = &shader->run->events[i];
-        if (event->count > 4)
-            continue;
-        values->items[values->count].size = event->count;
-        values->items[values->count].scalar =
-            glsl_scalar(shader->tree->symbols[event->symbol].type);
-        values->items[values->count].node = event->node;
-        values->items[values->count].symbol = event->symbol;
-        values->items[values->count].stage = stage;
-        memcpy(values->items[values->count++].numbers, &shader->run->values[event->value],
-               (size_t)event->count * sizeof(double));
+        const int whole = tree->symbols[event->symbol].type;
+        const GlslType *of = &tree->types[whole];
+        const bool parted = of->scalars == event->count && (of->element || of->fields);
+        for (int part = 0, used = 0; used < event->count && values->count < MAX_VALUES; part++) {
+            const int type = !parted       ? whole
+                             : of->element ? of->element
+                                           : tree->fields[of->field + part].type;
+            const int size = parted ? tree->types[type].scalars : event->count;
+            if (size <= 4) {
+                Assigned *value = &values->items[values->count++];
+                *value = (Assigned){.size = size,
+                                    .scalar = glsl_scalar(type),
+                                    .node = event->node,
+                                    .symbol = event->symbol,
+                                    .part = parted ? part + 1 : 0,
+                                    .stage = stage};
+                memcpy(value->numbers, &shader->run->values[event->value + used],
+                       (size_t)size * sizeof(double));
+            }
+            used += size;
+        }
     }
 }
 
@@ -42,21 +55,41 @@ void values_trace(const Points *points, PointShader *vertex, PointShader *fragme
     vertex->run->trace = fragment->run->trace = false;
 }
 
-/* A vec4 has the same value as its first three numbers. */
+void values_trace_right(const Derivation *all, PointShader *const pair[2], int point,
+                        Values *values)
+{
+    const PointSetting *setting = &all->points.settings[all->points.items[point].setting];
+    const float *m = points_value(setting, "u_ViewMatrix");
+    values_trace(&all->points, pair[0], pair[1], point, values);
+    for (int i = 0, count = values->count; i < 2 * count && all->in_eye; i++) {
+        const double *v = values->items[i / 2].numbers;
+        if (values->items[i / 2].size < 3 || values->count == MAX_VALUES)
+            continue;
+        Assigned *in_eye = &values->items[values->count++];
+        *in_eye = values->items[i / 2];
+        for (int k = 0; k < 4; k++)
+            in_eye->numbers[k] =
+                m[k] * v[0] + m[4 + k] * v[1] + m[8 + k] * v[2] + (i % 2 ? m[12 + k] : 0);
+    }
+}
+
+bool values_equal(const Values *own, int number, const Values *other, int other_number)
+{
+    const double *a = own->items[number].numbers, *b = other->items[other_number].numbers;
+    const int size = own->items[number].size, other_size = other->items[other_number].size;
+    bool same = (size == other_size || (size >= 3 && other_size >= 3)) &&
+                own->items[number].scalar == other->items[other_number].scalar;
+    for (int c = 0; c < size && c < other_size && same; c++)
+        same = fabs(a[c] - b[c]) <= 1e-5 * (1 + fabs(a[c]));
+    return same;
+}
+
 bool values_have(const Values *values, const Values *of, int number)
 {
-    const double *numbers = of->items[number].numbers;
-    const int size = of->items[number].size;
-    for (int i = 0; i < values->count; i++) {
-        const int other = values->items[i].size;
-        bool same = (size == other || (size >= 3 && other >= 3)) &&
-                    values->items[i].scalar == of->items[number].scalar;
-        for (int c = 0; c < size && c < other && same; c++)
-            same = fabs(numbers[c] - values->items[i].numbers[c]) <= 1e-5 * (1 + fabs(numbers[c]));
-        if (same)
-            return true;
-    }
-    return false;
+    bool found = false;
+    for (int i = 0; i < values->count && !found; i++)
+        found = values_equal(of, number, values, i);
+    return found;
 }
 
 int values_shared(const Values *own, const Values *other)
@@ -72,9 +105,9 @@ bool values_is_wrong(const Values *own, int number, const Values *mutant, const 
     return values_have(mutant, own, number) && !values_have(right, own, number);
 }
 
-bool values_differ(const Values *own, const Values *other, int number)
+bool values_differ(const Values *own, int number, const Values *other, int other_number)
 {
-    const double *a = own->items[number].numbers, *b = other->items[number].numbers;
+    const double *a = own->items[number].numbers, *b = other->items[other_number].numbers;
     bool differ = false;
     for (int i = 0; i < own->items[number].size; i++)
         differ |= fabs(a[i] - b[i]) > 1e-4 * fmax(1, fabs(b[i]));
@@ -120,6 +153,15 @@ static int shown_at(const GlslTree *tree, int node)
     return at->kind == GLSL_VARIABLE_NODE || at->kind == GLSL_EXPRESSION ? at->first
            : above > 0 && tree->nodes[above].kind <= GLSL_CONSTRUCT      ? above
                                                                          : node;
+}
+
+bool derivation_uses(const GlslTree *tree, const char *name)
+{
+    bool found = false;
+    for (int i = 1; i < tree->node_count && !found; i++)
+        found = tree->nodes[i].kind == GLSL_NAME &&
+                strcmp(tree->symbols[tree->nodes[i].symbol].name, name) == 0;
+    return found;
 }
 
 void derivation_place(const Derivation *all, GlslStage stage, int node, char *text, size_t size)
@@ -241,6 +283,9 @@ Derivation *derivation_open(const LabPictures *pictures, const SubmissionFiles *
     all->exact = memory_new(count, sizeof *all->exact);
     all->order = memory_new(count, sizeof *all->order);
     derivation_run(all, all->own, all->wanted, NULL);
+    for (int i = 0; i < 2; i++)
+        all->in_eye |= derivation_uses(all->own[i].tree, "u_ModelViewMatrix") ||
+                       derivation_uses(all->own[i].tree, "u_EyeNormalMatrix");
     for (int i = 0; i < all->points.setting_count; i++)
         all->reads_map |= all->points.settings[i].map_read;
     return all;

@@ -10,7 +10,7 @@
 #include "labs/diagnosis/points.h"
 #include "labs/submission/verdict.h"
 
-enum { TRACED = 6, MAX_VALUES = 400, MAX_RIGHTS = 8, MAX_GIVEN = 4 };
+enum { TRACED = 6, SHOWN_POINTS = 12, MAX_VALUES = 400, MAX_RIGHTS = 8, MAX_GIVEN = 4 };
 
 /* Equal formulas differ by 1e-12, with attributes in floats by 1e-7, with constants like 3.14159 by
  * more. A highlight that nearly vanishes is 1e-4 from one that does. */
@@ -30,7 +30,17 @@ typedef struct Found {
     int shared; /* of the submission's values */
     int other;  /* operations and names that the submission has more or less often */
     bool there; /* of the submission's changes: it changes the first wrong value, no right one */
+    bool needs_undeclared; /* a uniform that the submission does not declare */
 } Found;
+
+/* A value of the submission at a point, and the right one. */
+typedef struct Shown {
+    int point, size; /* 0: none is known */
+    GlslStage stage;
+    int node; /* where to look */
+    char name[64];
+    double is[4], should[4];
+} Shown;
 
 typedef struct Derivation {
     const Lab *lab;
@@ -51,7 +61,7 @@ typedef struct Derivation {
     char *nearest_text;   /* of its fragment shader, if it has other numbers */
     double wrong_by;
     bool noted; /* the submission does what is undefined */
-    bool reads_map;
+    bool reads_map, in_eye;
     double numbers[MUTATION_NUMBERS];
     int number_count, own_number_count; /* as they are in the submission */
     double right_numbers[MUTATION_NUMBERS];
@@ -67,6 +77,7 @@ typedef struct Derivation {
     bool two_found, mended_twice;
     int place_node; /* of the submission, in place_stage: the first wrong value; 0: not known */
     GlslStage place_stage;
+    Shown shown; /* what is wrong first */
 } Derivation;
 
 /* A submission at points. NULL: it cannot be run, or, with a message, the driver failed. */
@@ -156,12 +167,14 @@ typedef enum TwoOf { TWO_MEND, TWO_LIKELY, TWO_ANY } TwoOf;
 bool two_find(Derivation *all, TwoOf of);
 
 /* What shaders assign on their way, in order. */
+typedef struct Assigned {
+    double numbers[4];
+    int size, scalar, node, symbol; /* scalar: their type, GLSL_FLOAT or another */
+    int part; /* of an array or a structure: which, from 1 on; 0: it is whole */
+    GlslStage stage;
+} Assigned;
 typedef struct Values {
-    struct {
-        double numbers[4];
-        int size, scalar, node, symbol; /* scalar: their type, GLSL_FLOAT or another */
-        GlslStage stage;
-    } items[MAX_VALUES];
+    Assigned items[MAX_VALUES];
     int count;
 } Values;
 
@@ -169,14 +182,22 @@ typedef struct Values {
 void values_trace(const Points *points, PointShader *vertex, PointShader *fragment, int point,
                   Values *values);
 
+/* Those of a right program or its mutant: if the submission has other matrices than those to world
+ * space, all vectors in eye space, too, as directions and as points. */
+void values_trace_right(const Derivation *all, PointShader *const pair[2], int point,
+                        Values *values);
+
 /* How many of `own` are among the others. */
 int values_shared(const Values *own, const Values *other);
+
+/* Whether two values are the same: a vec4 and its first three numbers are. */
+bool values_equal(const Values *own, int number, const Values *other, int other_number);
 
 /* Whether the value of this number is among others. */
 bool values_have(const Values *values, const Values *of, int number);
 
-/* Whether the other one of this number, of the same shape, is another than rounding explains. */
-bool values_differ(const Values *own, const Values *other, int number);
+/* Whether the other one, of the same shape, is another than rounding explains. */
+bool values_differ(const Values *own, int number, const Values *other, int other_number);
 
 /* Whether the submission's value of this number is the mutant's and not the right program's. */
 bool values_is_wrong(const Values *own, int number, const Values *mutant, const Values *right);
@@ -185,8 +206,11 @@ bool values_is_wrong(const Values *own, int number, const Values *mutant, const 
  * other. */
 int values_count_other(const GlslTree *a, const GlslTree *b);
 
-/* Fills in which of the student's text a change replaces, and by what: not where a macro is. */
-void change_take_text(const Derivation *all, const Found *found, VerdictMistake *mistake);
+/* Says what was found. */
+void change_say(Derivation *all, Verdict *verdict);
+
+/* Whether an expression has a variable of this name. */
+bool derivation_uses(const GlslTree *tree, const char *name);
 
 /* "line 14 of lab06.frag, float d = dot(n, l)". */
 void derivation_place(const Derivation *all, GlslStage stage, int node, char *text, size_t size);
@@ -207,8 +231,19 @@ enum { MAX_TERMS = 7 };
 int wrong_part_list(const Lab *lab, Term terms[MAX_TERMS]);
 PartState wrong_part_judge(Derivation *all, const Term *term);
 
-/* Of a submission that is mended: fills in the value that is wrong first, unless it is the result,
- * and says it. */
+/* Points where it is wrong: of known scenes the worst, then others; then the worst of all. */
+int first_wrong_points(const Derivation *all, int list[SHOWN_POINTS]);
+
+/* Keeps what is shown. */
+void first_wrong_take(Derivation *all, const Values *own, int number, const Values *right,
+                      int other, int point);
+
+/* Keeps the submission's first value that is wrong as that of the right program's mutant. True: the
+ * right program alone assigns another. */
+bool first_wrong_compare(Derivation *all, PointShader *const mutant[2]);
+
+/* Says what is wrong first. Of a submission that is mended: fills it in, unless it is the result.
+ */
 void first_wrong_find(Derivation *all, Verdict *verdict, FirstWrong *first);
 
 /* The terms that are wrong. */

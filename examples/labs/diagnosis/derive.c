@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double UNIQUE = 0.9, ONE_OF_SEVERAL = 0.75, TINY = 1e-4;
+static const double TINY = 1e-4;
 static const double EQUAL = DERIVATION_EQUAL, ALIKE = 1e-6;
 
 /* Constants of a shader that may be a mistake's numbers: they and their reciprocals. */
@@ -192,7 +192,7 @@ void derive_compare_values(Derivation *all, Found *found)
         for (int k = 0; k < TRACED && 2 * k < all->points.count; k++) {
             const int point = all->order[2 * k];
             values_trace(&all->points, &all->own[0], &all->own[1], point, own);
-            values_trace(&all->points, pair.stages[0], pair.stages[1], point, other);
+            values_trace_right(all, pair.stages, point, other);
             found->shared += values_shared(own, other);
         }
         for (int k = 0; k < 2; k++)
@@ -278,138 +278,94 @@ static bool try_mutant(void *context, const Mutation *mutation, const char *text
 static void trace_all(Derivation *all, PointShader *const mutant[2], int point, Values values[3])
 {
     values_trace(&all->points, &all->own[0], &all->own[1], point, &values[0]);
-    values_trace(&all->points, &all->right[0], &all->right[1], point, &values[1]);
-    values_trace(&all->points, mutant[0], mutant[1], point, &values[2]);
+    values_trace_right(all, (PointShader *[]){&all->right[0], &all->right[1]}, point, &values[1]);
+    values_trace_right(all, mutant, point, &values[2]);
 }
 
-static bool is_wrong_at(const Values values[3], GlslStage stage, int node)
+/* Whether what is assigned there is, at all these points, a value of the mutant, and at one after
+ * the first wrong, because at one it may be so by chance. `strict`: else only the latter. */
+static bool is_wrong_at(const Values (*values)[3], int count, const Assigned *first, bool strict)
 {
-    bool wrong = false;
-    for (int i = 0; i < values[0].count && !wrong; i++)
-        wrong = values[0].items[i].node == node && values[0].items[i].stage == stage &&
-                values_is_wrong(&values[0], i, &values[2], &values[1]);
-    return wrong;
+    bool wrong = false, shared = true;
+    for (int k = 0; k < count; k++) {
+        bool any = false, of_mutant = false;
+        for (int i = 0; i < values[k][0].count; i++) {
+            const Assigned *own = &values[k][0].items[i];
+            if (own->node != first->node || own->stage != first->stage)
+                continue;
+            any = true;
+            of_mutant |= values_have(&values[k][2], &values[k][0], i);
+            if (k > 0 && values_is_wrong(&values[k][0], i, &values[k][2], &values[k][1])) {
+                wrong = true;
+                break;
+            }
+        }
+        shared &= !any || of_mutant;
+    }
+    return wrong && (shared || !strict);
 }
 
-/* Finds the submission's first value that is wrong as the mutant's is; at two points, because at
- * one it may be so by chance. */
+/* Whether a variable just is an attribute, a varying or a uniform: it may be used rightly, too. */
+static bool is_copy(const GlslTree *tree, int node)
+{
+    const GlslNode *at = &tree->nodes[node];
+    const int value = at->kind == GLSL_VARIABLE_NODE ? at->first : tree->nodes[at->first].next;
+    const int storage = tree->symbols[tree->nodes[value].symbol].storage;
+    return tree->nodes[value].kind == GLSL_NAME && storage >= GLSL_ATTRIBUTE &&
+           storage <= GLSL_VARYING;
+}
+
+/* What is missing there belongs to the submission's own condition, if it has it. */
+static void look_at_condition(Derivation *all, const Found *found)
+{
+    const GlslTree *tree = all->own[found->stage].tree;
+    char text[MUTATION_TEXT];
+    for (int i = 1; i < tree->node_count; i++) {
+        if (tree->nodes[i].kind != GLSL_IF)
+            continue;
+        condition_of(tree, tree->nodes[tree->nodes[i].first].next, text);
+        if (strcmp(text, found->where) == 0) {
+            all->shown.stage = found->stage;
+            all->shown.node = tree->nodes[i].first;
+        }
+    }
+}
+
+/* The submission's first value that is wrong as the mutant's is; NULL: none. */
+static const Assigned *find_wrong(const Derivation *all, const Values (*values)[3], int count,
+                                  bool strict)
+{
+    const Values *own = values[0];
+    for (int i = 0; i < own->count; i++) {
+        const Assigned *value = &own->items[i];
+        if (!is_copy(all->own[value->stage].tree, value->node) &&
+            values_is_wrong(own, i, &values[0][2], &values[0][1]) &&
+            is_wrong_at(values, count, value, strict))
+            return value;
+    }
+    return NULL;
+}
+
 static void find_place(Derivation *all, const Found *found)
 {
-    Values *values = memory_new(6, sizeof *values);
+    Values(*values)[3] = memory_new(TRACED, sizeof *values);
+    const int count = all->points.count / 2 < TRACED ? all->points.count / 2 : TRACED;
     Pair pair;
     all->place_node = 0;
     if (open_pair(all, found, &pair)) {
-        for (int k = 0; k < 2; k++) /* where it is wrong */
-            trace_all(all, pair.stages, all->order[2 * k], values + 3 * k);
-        for (int i = 0; i < values[0].count && !all->place_node; i++) {
-            const int node = values[0].items[i].node;
-            all->place_stage = values[0].items[i].stage;
-            if (values_is_wrong(&values[0], i, &values[2], &values[1]) &&
-                is_wrong_at(values + 3, all->place_stage, node))
-                all->place_node = node;
-        }
+        for (int k = 0; k < count; k++) /* where it is wrong */
+            trace_all(all, pair.stages, all->order[2 * k], values[k]);
+        const Assigned *wrong = find_wrong(all, values, count, true);
+        if (!wrong)
+            wrong = find_wrong(all, values, 2, false);
+        if (wrong)
+            all->place_stage = wrong->stage, all->place_node = wrong->node;
+        all->shown = (Shown){.stage = all->place_stage, .node = all->place_node};
+        if (first_wrong_compare(all, pair.stages) && found->where[0])
+            look_at_condition(all, found);
         close_pair(&pair);
     }
     free(values);
-}
-
-/* After a colon the right program's words become the submission's at the place, if that is known.
- */
-static void name_mutation(const Mutation *mutation, const char *place, char name[MUTATION_TEXT * 2])
-{
-    const char *colon = strstr(mutation->name, ": "), *own = place ? strstr(place, ": ") : NULL;
-    const bool number = !mutation->was[strspn(mutation->was, ".0123456789")];
-    const bool both = colon && own && !number; /* which the submission may not have */
-    snprintf(name, MUTATION_TEXT * 2, "%.*s%.190s",
-             (int)(both ? colon - mutation->name : MUTATION_TEXT), mutation->name, both ? own : "");
-}
-
-/* Of one of two mistakes the place is not known. */
-static void add(const Found *found, const char *place, bool alone, double sure, Verdict *verdict)
-{
-    const Mutation *mutation = &found->mutation;
-    char name[MUTATION_TEXT * 2], sentence[VERDICT_SENTENCE_SIZE];
-    name_mutation(mutation, alone ? place : NULL, name);
-    snprintf(
-        sentence, sizeof sentence,
-        "%s%sIt draws what the solution would draw if it had %.120s where it has %.120s%s%.120s.",
-        mutation->sentence, mutation->sentence[0] ? " " : "",
-        mutation->by[0] ? mutation->by : "nothing", mutation->was,
-        found->where[0] ? ", where " : "", found->where);
-    verdict_add_mistake(verdict, name, sentence, place, sure);
-}
-
-/* Whether it undoes something by a formula around it, and has no name: 2 c - 1 for c. */
-static bool wraps(const Mutation *mending)
-{
-    const size_t length = strlen(mending->was);
-    return strncmp(mending->mends, mending->was, length) == 0 &&
-           strncmp(mending->mends + length, " for ", 5) == 0 && strstr(mending->by, mending->was);
-}
-
-/* The line that has to change, and to what. */
-static void say_mending(Derivation *all, const Found *found, Verdict *verdict)
-{
-    const Mutation *mending = &found->mutation, *best = &all->best.mutation;
-    const bool sole = all->mended_twice ? all->unique : all->mending.apart <= EQUAL;
-    const bool known = all->best.text && best->general && all->unique && all->mending.there;
-    const bool likelier = known && best->rank < mending->rank && wraps(mending);
-    char place[VERDICT_SENTENCE_SIZE], sentence[VERDICT_SENTENCE_SIZE], look[VERDICT_SENTENCE_SIZE];
-    char name[MUTATION_TEXT * 2];
-    derivation_place(all, found->stage, mending->node, place, sizeof place);
-    name_mutation(best, place, name);
-    snprintf(look, sizeof look, "%.250s; all is right with %s%s", place,
-             mending->by[0] ? mending->by : "nothing there",
-             all->mended_twice ? " and the other change" : "");
-    snprintf(sentence, sizeof sentence, "%s%sIt draws what is right with %s instead of %s%s.",
-             known ? best->sentence : "", known && best->sentence[0] ? " " : "",
-             mending->by[0] ? mending->by : "nothing", mending->was,
-             all->mended_twice ? ", once the other mistake is mended, too" : "");
-    change_take_text(all, found,
-                     verdict_add_mistake(verdict, likelier ? name : mending->mends, sentence, look,
-                                         known || sole ? UNIQUE : ONE_OF_SEVERAL));
-}
-
-/* Whether the first wrong value is known, and not just the result. */
-static bool is_inside(const Derivation *all)
-{
-    const GlslTree *tree = all->own[all->place_stage].tree;
-    const GlslNode *node = &tree->nodes[all->place_node];
-    while (node->kind != GLSL_NAME && node->kind != GLSL_VARIABLE_NODE && node->first)
-        node = &tree->nodes[node->first];
-    const GlslSymbol *symbol = &tree->symbols[node->symbol];
-    return all->place_node && !symbol->built_in && symbol->storage != GLSL_VARYING;
-}
-
-/* A change elsewhere than at the first wrong value makes up for a mistake, but of a shadow, which a
- * function returns. */
-static void say(Derivation *all, Verdict *verdict)
-{
-    const Found *found = all->two_found ? &all->second : &all->best;
-    const double sure = all->unique ? UNIQUE : ONE_OF_SEVERAL;
-    char look[VERDICT_SENTENCE_SIZE];
-    const bool other = found->text && found->mutation.general && all->unique && is_inside(all);
-    if (all->mended_twice || (all->mended && (all->mending.there || !other || all->lab->shadow))) {
-        say_mending(all, &all->mending, verdict);
-        if (all->mended_twice)
-            say_mending(all, &all->second, verdict);
-    } else {
-        if (all->place_node)
-            derivation_place(all, all->place_stage, all->place_node, look, sizeof look);
-        else
-            snprintf(look, sizeof look, "where %s should be", found->mutation.was);
-        if (found->first)
-            add(found->first, look, false, sure, verdict);
-        add(found, look, !found->first && is_inside(all), sure, verdict);
-        wrong_part_say(all, verdict);
-    }
-    const bool same = found->first && found->first->mutation.rank == found->mutation.rank;
-    snprintf(verdict->message, sizeof verdict->message, "%s%s%s%s",
-             verdict->mistake_count < 2 ? ""
-             : same                     ? "Twice the same mistake: "
-                                        : "Two mistakes: ",
-             verdict->mistakes[0].name, verdict->mistake_count > 1 ? "; " : "",
-             verdict->mistake_count > 1 ? verdict->mistakes[1].name : "");
 }
 
 bool derive_use_right(Derivation *all, const char *ending, LitAt lit)
@@ -444,19 +400,32 @@ static bool search(Derivation *all)
     return all->best.text;
 }
 
-/* Two of the right program that is nearest. A shadow is all or nothing, so that two explain too
- * much. */
+/* Two of the right program that is nearest, with light where the submission has it: a fragment
+ * shader that lights has uniforms. A shadow is all or nothing, so that two explain too much. */
 static bool search_two(Derivation *all, TwoOf of)
 {
     double apart[2] = {INFINITY, INFINITY};
+    const GlslTree *tree = all->own[1].tree;
+    LitAt lit = LIT_AT_VERTICES;
+    for (int i = 1; i < tree->symbol_count && all->lab->either; i++)
+        if (tree->symbols[i].storage == GLSL_UNIFORM && tree->symbols[i].place.line)
+            lit = LIT_AT_POINTS;
     for (int i = 0; i < 2; i++)
-        if (derive_use_right(all, ENDINGS[i], LIT_NEAREST) && all->wrong_by > 4 * EQUAL)
+        if (derive_use_right(all, ENDINGS[i], lit) && all->wrong_by > 4 * EQUAL)
             apart[i] = all->nearest_right;
     if (all->lab->budget || all->lab->shadow ||
-        !derive_use_right(all, ENDINGS[apart[0] >= apart[1]], LIT_NEAREST) || !two_find(all, of))
+        !derive_use_right(all, ENDINGS[apart[0] >= apart[1]], lit) || !two_find(all, of))
         return false;
     find_place(all, &all->second);
     return true;
+}
+
+/* Of a right program or of the submission. */
+static bool explain_at_vertices(Derivation *all, Verdict *verdict)
+{
+    return (derive_use_right(all, "_apart", LIT_NEAREST) && at_vertices_explain(all, verdict)) ||
+           (derive_use_right(all, "", LIT_NEAREST) &&
+            (at_vertices_explain(all, verdict) || at_vertices_explain_own(all, verdict)));
 }
 
 /* The change that makes a right program as wrong, and that which makes the submission right; then
@@ -474,16 +443,13 @@ static bool explain(Derivation *all, Verdict *verdict)
         find_place(all, &all->best);
     const bool exact = mend_find(all);
     if (exact && all->mending.mutation.formula && !all->best.text &&
-        derive_use_right(all, "", LIT_NEAREST) && at_vertices_explain_own(all, verdict))
+        explain_at_vertices(all, verdict))
         return true;
     if (exact || all->best.text) {
         all->mended = exact;
         return true;
     }
-    if ((derive_use_right(all, "_apart", LIT_NEAREST) && at_vertices_explain(all, verdict)) ||
-        (derive_use_right(all, "", LIT_NEAREST) &&
-         (at_vertices_explain(all, verdict) || at_vertices_explain_own(all, verdict))) ||
-        all->mended)
+    if (explain_at_vertices(all, verdict) || all->mended)
         return true;
     return two_find(all, TWO_MEND) ||
            (!blind && (search_two(all, TWO_LIKELY) || search_two(all, TWO_ANY)));
@@ -494,6 +460,8 @@ bool derive_mistake(Derivation *all, Verdict *verdict)
     if (!explain(all, verdict))
         return false;
     if (verdict->mistake_count == 0)
-        say(all, verdict);
+        change_say(all, verdict);
+    else
+        all->mended = false, all->shown.size = 0;
     return true;
 }

@@ -86,6 +86,11 @@ typedef struct Parts {
     bool turns;              /* what is left is a rotation */
 } Parts;
 
+static double dot(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 static Parts take_apart(const Mat4 *matrix)
 {
     Parts parts = {.turns = true};
@@ -93,16 +98,15 @@ static Parts take_apart(const Mat4 *matrix)
     for (int column = 0; column < 3; column++) {
         const double *m = matrix->m + 4 * column;
         parts.move[column] = matrix->m[12 + column];
-        parts.scale[column] = sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
+        parts.scale[column] = sqrt(dot(m, m));
         for (int row = 0; row < 3; row++)
             turn[3 * column + row] = m[row] / parts.scale[column];
     }
     for (int a = 0; a < 3; a++)
         for (int b = 0; b < a; b++)
-            parts.turns &= fabs(turn[3 * a] * turn[3 * b] + turn[3 * a + 1] * turn[3 * b + 1] +
-                                turn[3 * a + 2] * turn[3 * b + 2]) < MATRICES_TOLERANCE;
+            parts.turns &= fabs(dot(turn + 3 * a, turn + 3 * b)) < MATRICES_TOLERANCE;
     const double axis[3] = {turn[5] - turn[7], turn[6] - turn[2], turn[1] - turn[3]};
-    const double length = sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
+    const double length = sqrt(dot(axis, axis));
     cosine = fmin(fmax((turn[0] + turn[4] + turn[8] - 1) / 2, -1), 1);
     parts.degrees = atan2(length / 2, cosine) * 180 / acos(-1);
     for (int i = 0; i < 3; i++)
@@ -123,8 +127,7 @@ static bool column_factors(const Mat4 *found, const Mat4 *right, double factors[
 {
     for (int column = 0; column < 3; column++) {
         const double *a = found->m + 4 * column, *b = right->m + 4 * column;
-        const double factor =
-            (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) / (b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
+        const double factor = dot(a, b) / dot(b, b);
         const double scaled[3] = {factor * b[0], factor * b[1], factor * b[2]};
         if (!is_near(a, scaled))
             return false;
@@ -146,6 +149,7 @@ enum {
     SAME_TURN = 1 << 8,
     SAME_AXIS = 1 << 9,
     LINEAR = 1 << 10, /* the angle is in proportion to the time */
+    WHOLE = 1 << 11,  /* it has no fraction */
 };
 
 typedef struct Facts {
@@ -159,11 +163,6 @@ static void note(Facts *facts, unsigned fact, bool holds)
 {
     if (!holds)
         facts->true_of_all &= ~fact;
-}
-
-static double dot(const double *a, const double *b)
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 /* Near 0 and 180 degrees the axis cannot be told. */
@@ -183,6 +182,7 @@ static void add_turn(Facts *facts, const Parts *found, double seconds, bool is_f
     note(facts, SAME_AXIS, is_near(flipped, facts->first.axis));
     note(facts, ABOUT_AXIS, fabs(fabs(own) - 1) < 1e-5);
     note(facts, TURNED, fabs(remainder(whole - DEGREES_PER_SECOND * seconds, 360)) < 0.06);
+    note(facts, WHOLE, fabs(remainder(whole, 1)) < 0.01);
     note(facts, LINEAR, fabs(apart) < 0.1 + 0.002 * seconds);
 }
 
@@ -215,7 +215,7 @@ typedef struct Rule {
     unsigned all, none;
     const char *name;
     const char *sentence; /* followed by the numbers, if there are any */
-    enum { NO_NUMBERS, SCALE, TRANSLATION, AXIS, RATE } numbers;
+    enum { SCALE, TRANSLATION, AXIS, RATE, NO_NUMBERS } numbers; /* from RATE on: of the angle */
     const char *look;
 } Rule;
 
@@ -232,6 +232,9 @@ static const Rule RULES[] = {
      "The cube is turned, but always by the same angle.", NO_NUMBERS, ANGLE},
     {TURNS | MOVED | SCALED | ABOUT_AXIS | LINEAR, TURNED, "wrong angle", "The cube turns by", RATE,
      ANGLE},
+    {TURNS | MOVED | SCALED | ABOUT_AXIS | WHOLE, TURNED, "angle without its fraction",
+     "The cube is always turned by whole degrees: an integer cuts the fraction off.", NO_NUMBERS,
+     "the angle is a double: 30 degrees times seconds"},
     {TURNS | MOVED | SCALED | ABOUT_AXIS, TURNED, "wrong angle",
      "The cube is turned by a wrong angle.", NO_NUMBERS, ANGLE},
 };
@@ -314,16 +317,20 @@ static const Form *find_form(const LabPictures *pictures, int of, bool *right)
     return NULL;
 }
 
-/* The last line where lab_matrices uses this one of its results, where it was set; 0: not known. */
-static int line_of(const char *code, int of)
+/* The last line where lab_matrices uses this one of its parameters: the seconds, then its results,
+ * where they were set; 0: not known. */
+static int line_of(const char *code, int parameter)
 {
     const char *name = code ? strstr(code, "lab_matrices") : NULL;
     int line = 1, found = 0;
     size_t length = 0;
-    for (int i = 0; i <= of && name; i++)
-        name = strchr(name + 1, '*');
-    for (name += name != NULL; name && text_is_word(name[length]);)
-        length++;
+    for (int i = 0; i <= parameter && name; i++)
+        name = strpbrk(name + 1, ",)");
+    while (name && !text_is_word(*name))
+        name--;
+    for (; name > code && text_is_word(name[-1]); length++)
+        name--;
+    length += name != NULL;
     for (const char *at = code; length > 0 && *at; line += *at++ == '\n')
         if (at > name && strncmp(at, name, length) == 0 && !text_is_word(at[-1]) &&
             !text_is_word(at[length]))
@@ -331,10 +338,11 @@ static int line_of(const char *code, int of)
     return found;
 }
 
-static void blame(Verdict *verdict, const Lab *lab, const char *code, int of, const Form *what)
+static void blame(Verdict *verdict, const Lab *lab, const char *code, int parameter,
+                  const Form *what)
 {
     char look[VERDICT_SENTENCE_SIZE];
-    const int line = line_of(code, of);
+    const int line = line_of(code, parameter);
     snprintf(look, sizeof look, "line %d of %s: %s", line, lab->code, what->look);
     verdict_add_mistake(verdict, what->name, what->sentence, line ? look : what->look, 0.9);
 }
@@ -349,7 +357,7 @@ static bool name_facts(const LabPictures *pictures, const char *code, Verdict *v
         if ((facts.true_of_all & rule->all) != rule->all || (facts.true_of_all & rule->none))
             continue;
         say(rule, &facts, sentence);
-        blame(verdict, pictures->lab, code, MODEL,
+        blame(verdict, pictures->lab, code, rule->numbers < RATE,
               &(Form){.name = rule->name, .sentence = sentence, .look = rule->look});
         return true;
     }
@@ -363,9 +371,9 @@ void matrices_name(const LabPictures *pictures, const char *code, Verdict *verdi
     const Form *const of_normal = find_form(pictures, NORMAL, &normal);
     const bool told = model || of_model || name_facts(pictures, code, verdict);
     if (of_model)
-        blame(verdict, pictures->lab, code, MODEL, of_model);
+        blame(verdict, pictures->lab, code, 1 + MODEL, of_model);
     if (of_normal && told)
-        blame(verdict, pictures->lab, code, NORMAL, of_normal);
+        blame(verdict, pictures->lab, code, 1 + NORMAL, of_normal);
     const VerdictMistake *said = verdict->mistakes;
     const char *const unknown = normal || of_normal ? "Unknown mistake in the model matrix"
                                 : told              ? "Unknown mistake in the normal matrix"

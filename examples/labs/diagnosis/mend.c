@@ -7,6 +7,8 @@
 #include "labs/diagnosis/diagnose.h"
 
 #include "base/memory.h"
+#include "base/text.h"
+#include "core/matrix.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -95,33 +97,68 @@ static bool reaches(const GlslTree *tree, int node, int wanted)
     return found;
 }
 
+/* Whether one of the values has the direction of this vector. */
+static bool has_direction(const Values *values, const Values *of, int number)
+{
+    const double *n = of->items[number].numbers;
+    const Vec3 a = {n[0], n[1], n[2]};
+    bool found = false;
+    for (int i = 0; i < values->count && !found && of->items[number].size == 3; i++) {
+        const double *m = values->items[i].numbers;
+        const Vec3 b = {m[0], m[1], m[2]};
+        const double lengths = sqrt(vec3_dot(a, a) * vec3_dot(b, b));
+        found = values->items[i].size == 3 && lengths > 0 && vec3_dot(a, b) >= (1 - 1e-8) * lengths;
+    }
+    return found;
+}
+
+/* Whether the mended submission assigns the value to the same variable, if at another time. */
+static bool remains(const Derivation *all, const Values *own, int number,
+                    PointShader *const mended[2], const Values *other)
+{
+    const int stage = (int)own->items[number].stage;
+    const char *name = all->own[stage].tree->symbols[own->items[number].symbol].name;
+    bool found = false;
+    for (int i = 0; i < other->count && !found; i++)
+        found = (int)other->items[i].stage == stage &&
+                other->items[i].part == own->items[number].part &&
+                !values_differ(own, number, other, i) &&
+                strcmp(mended[stage]->tree->symbols[other->items[i].symbol].name, name) == 0;
+    return found;
+}
+
 /* Whether the change is upstream of the first wrong value: that becomes another by it, and what is
  * right before stays as it is. */
 static bool leads_there(Derivation *all, PointShader *const mended[2])
 {
     Values *own = memory_new(3, sizeof *own), *other = own + 1, *right = own + 2;
-    bool leads = false, spoils = false, kept[MAX_VALUES], right_ones[MAX_VALUES];
+    struct {
+        bool right, stays, aims, still_aims; /* at all points; aims: only its length may be wrong */
+    } kept[MAX_VALUES];
+    bool leads = false, spoils = false;
     int before = 0;
     memset(kept, true, sizeof kept);
-    memset(right_ones, true, sizeof right_ones);
     for (int k = 0; k < TRACED && 2 * k < all->points.count; k++) {
         const int point = all->order[2 * k];
         values_trace(&all->points, &all->own[0], &all->own[1], point, own);
         values_trace(&all->points, mended[0], mended[1], point, other);
-        values_trace(&all->points, &all->right[0], &all->right[1], point, right);
-        for (int i = 0; i < own->count && i < other->count; i++) {
-            const bool differs = values_differ(own, other, i);
-            if (own->items[i].node == all->place_node && own->items[i].stage == all->place_stage) {
-                leads |= differs;
+        values_trace_right(all, (PointShader *[]){&all->right[0], &all->right[1]}, point, right);
+        for (int i = 0; i < own->count; i++) {
+            const bool stays = remains(all, own, i, mended, other);
+            if (!stays && own->items[i].node == all->place_node &&
+                own->items[i].stage == all->place_stage) { /* each time it is assigned */
+                leads = true;
                 break;
             }
-            kept[i] &= !differs;
-            right_ones[i] &= values_have(right, own, i);
+            kept[i].right &= values_have(right, own, i);
+            kept[i].stays &= stays;
+            kept[i].aims &= has_direction(right, own, i);
+            kept[i].still_aims &= stays || has_direction(other, own, i);
             before = i >= before ? i + 1 : before;
         }
     }
     for (int i = 0; i < before; i++)
-        spoils |= right_ones[i] && !kept[i];
+        spoils |= (kept[i].right && !kept[i].stays) || (kept[i].aims && !kept[i].still_aims);
     free(own);
     return leads && !spoils;
 }
@@ -132,11 +169,14 @@ static bool is_there(Derivation *all, const Found *found, PointShader *const men
 {
     const GlslTree *tree = all->own[found->stage].tree;
     const int place = all->place_node, node = found->mutation.node;
-    bool there = place > 0 && found->stage == all->place_stage && reaches(tree, place, node);
+    const int first = tree->nodes[node].kind == GLSL_EXPRESSION ? tree->nodes[node].first : 0;
+    bool there = place > 0 && found->stage == all->place_stage &&
+                 (first == place || reaches(tree, place, node));
     for (int i = 1; i < tree->node_count && place > 0 && !there; i++)
         there = found->stage == all->place_stage && tree->nodes[i].kind == GLSL_IF &&
                 mend_holds(tree, i, place) && reaches(tree, tree->nodes[i].first, node);
-    return there || (place > 0 && leads_there(all, mended));
+    return there || tree->nodes[first].kind == GLSL_BUILT_IN || /* it is not used */
+           (place > 0 && leads_there(all, mended));
 }
 
 /* Whether a leaves out what b puts in once more, or divides by: two of a sign are as none. */
@@ -147,9 +187,22 @@ static bool undoes(const Mutation *a, const Mutation *b)
     return out && strstr(b->by, out + strlen(MANY)) && !strstr(b->was, out + strlen(MANY));
 }
 
+/* Whether a change needs a uniform that the submission does not declare. */
+static bool needs_undeclared(const Derivation *all, const char *by)
+{
+    const char *declared = all->undeclared[all->stage];
+    bool any = false;
+    for (const char *at = strstr(declared, " u_"); at && !any; at = strstr(at + 1, " u_")) {
+        char name[64];
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(at + 1, "[;"), at + 1);
+        any = text_count_word(by, name) > 0;
+    }
+    return any;
+}
+
 /* Below 0: a is the better change: right to the last digit, and not by a formula instead of all;
- * not of a variable computed anew; what leaves out; where the first wrong value is; without an
- * operand twice; of the likelier rule; the earlier one; the smaller one. */
+ * not of a variable computed anew; what leaves out; with what is declared; where the first wrong
+ * value is; without an operand twice; of the likelier rule; the earlier one; the smaller one. */
 static int compare(const Derivation *all, const Found *a, const Found *b)
 {
     const GlslPlace *place = &all->own[a->stage].tree->nodes[a->mutation.node].place;
@@ -160,7 +213,9 @@ static int compare(const Derivation *all, const Found *a, const Found *b)
            : a->mutation.anew != b->mutation.anew ? (int)a->mutation.anew - (int)b->mutation.anew
            : undoes(&a->mutation, &b->mutation)   ? -1
            : undoes(&b->mutation, &a->mutation)   ? 1
-           : a->there != b->there                 ? (int)b->there - (int)a->there
+           : a->needs_undeclared != b->needs_undeclared
+               ? (int)a->needs_undeclared - (int)b->needs_undeclared
+           : a->there != b->there ? (int)b->there - (int)a->there
            : a->mutation.doubled != b->mutation.doubled
                ? (int)a->mutation.doubled - (int)b->mutation.doubled
            : a->mutation.rank != b->mutation.rank ? a->mutation.rank - b->mutation.rank
@@ -182,7 +237,10 @@ bool mend_open(const Derivation *all, const char *text, bool own, PointShader *s
 bool mend_try(Derivation *all, const Mutation *mutation, const char *text)
 {
     PointShader shader, *pair[2] = {&all->own[0], &all->own[1]};
-    Found found = {.mutation = *mutation, .stage = all->stage, .there = true}; /* at best */
+    Found found = {.mutation = *mutation,
+                   .stage = all->stage,
+                   .there = true, /* at best */
+                   .needs_undeclared = needs_undeclared(all, mutation->by)};
     if (mend_is_given(all, mutation) || loses(all, mutation) ||
         (all->mended && compare(all, &found, &all->mending) >= 0))
         return false;

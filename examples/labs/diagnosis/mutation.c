@@ -30,12 +30,15 @@ enum {
     MOVE,
     EXPONENT,
     SUMMED,
-    RECIPROCALS
+    RECIPROCALS,
+    FACING,
+    INOUT
 };
 /* In their order. */
-static FormsEach *const EACH[] = {forms_exchanges, forms_brackets, forms_unbrackets, forms_spreads,
-                                  forms_turns,     forms_begins,   forms_lights,     forms_moves,
-                                  forms_exponents, forms_summed,   forms_reciprocals};
+static FormsEach *const EACH[] = {forms_exchanges, forms_brackets, forms_unbrackets,  forms_spreads,
+                                  forms_turns,     forms_begins,   forms_lights,      forms_moves,
+                                  forms_exponents, forms_summed,   forms_reciprocals, forms_facing,
+                                  forms_inout};
 
 typedef struct Rule {
     int kind, op; /* `op`: of a built-in function its number, -1: any; of one component: 1 for
@@ -218,8 +221,9 @@ static void fill(const Maker *maker, const char *form, bool grouped, char *text,
             text[used] = '\0';
             continue;
         }
-        used += (size_t)snprintf(text + used, size - used,
-                                 grouped && *at != '%' && is_compound(put) ? "(%s)" : "%s", put);
+        const bool alone = used > 0 && text[used - 1] == '(' && at[1] == ')'; /* normalize($1) */
+        const bool group = grouped && *at != '%' && !alone && is_compound(put);
+        used += (size_t)snprintf(text + used, size - used, group ? "(%s)" : "%s", put);
     }
 }
 
@@ -264,7 +268,7 @@ static void make(Maker *maker, int rule)
                          .sentence = RULES[rule].sentence,
                          .rank = rule,
                          .variant = maker->variant,
-                         .likely = rule < LIKELY_COUNT,
+                         .likely = rule < LIKELY_COUNT && RULES[rule].kind != GLSL_CONSTRUCT,
                          .formula = !strpbrk(RULES[rule].by, "$@") && strchr(RULES[rule].by, '('),
                          .general =
                              !strpbrk(RULES[rule].by, "#@~") && RULES[rule].kind != GLSL_LITERAL};
@@ -277,7 +281,7 @@ static void make(Maker *maker, int rule)
         return;
     fill(maker, RULES[rule].name, false, mutation.name, sizeof mutation.name);
     snprintf(mutation.was, sizeof mutation.was, "%.199s",
-             RULES[rule].kind == MOVE ? "where it is" : maker->operands[0]);
+             maker->form && maker->form->was ? maker->form->was : maker->operands[0]);
     snprintf(mutation.by, sizeof mutation.by, "%.199s", by);
     if (RULES[rule].mends[0])
         fill(maker, RULES[rule].mends, false, mutation.mends, sizeof mutation.mends);
@@ -358,7 +362,9 @@ static void apply(Maker *maker, int rule)
     char names[MAX_NAMES][NAME_SIZE] = {""}, number[32] = "";
     const bool scalar = strchr(RULES[rule].by, '~'), named = scalar || strchr(RULES[rule].by, '@'),
                numbered = strchr(RULES[rule].by, '#');
-    const int type = scalar ? GLSL_FLOAT : maker->tree->nodes[maker->node].type;
+    const int type = scalar                           ? GLSL_FLOAT
+                     : RULES[rule].kind == GLSL_INDEX ? GLSL_INT
+                                                      : maker->tree->nodes[maker->node].type;
     const int name_count =
         named ? names_of(maker->tree, type, strcmp(RULES[rule].by, "@") != 0, names) : 1;
     for (int i = 0; i < name_count; i++) {

@@ -22,7 +22,7 @@ typedef struct Mutation {
     const char *sentence;     /* what is wrong, or "" */
     int rank;                 /* of two that are as near, the lower is named */
     int variant;              /* which name and number of its rule's */
-    bool likely;              /* of mutation_likely.def */
+    bool likely;              /* of mutation_likely.def, but for w */
     bool formula;             /* nothing of what was there is left */
     bool general;             /* its text has no number and no name that was tried */
     bool doubled;             /* a name that is another operand already */

@@ -213,7 +213,8 @@ static void move(const Move *move, int to, int before, int around, const char *w
     memcpy(tree->nodes, saved, size);
     snprintf(name, sizeof name, "%s the %s, not %s it", was, what, by);
     snprintf(text, sizeof text, "it %s the %s", by, what);
-    move->take(move->context, &(Form){.text = text, .name = name, .whole = whole});
+    move->take(move->context,
+               &(Form){.text = text, .name = name, .whole = whole, .was = "where it is"});
     free(whole);
     free(saved);
 }
@@ -305,4 +306,54 @@ void forms_summed(GlslTree *tree, int node, FormTake *take, void *context)
     tree->node_count--;
     take(context, &(Form){.text = text, .name = name, .whole = whole});
     free(whole);
+}
+
+/* Parameters. */
+
+void forms_inout(GlslTree *tree, int node, FormTake *take, void *context)
+{
+    int target = tree->nodes[node].first;
+    char type[64], name[NAME_SIZE], was[TEXT_SIZE], text[TEXT_SIZE];
+    while (forms_is_name(&tree->nodes[target]) && tree->nodes[target].kind != GLSL_NAME)
+        target = tree->nodes[target].first;
+    GlslSymbol *symbol = &tree->symbols[tree->nodes[target].symbol];
+    if (tree->nodes[node].kind != GLSL_ASSIGN || tree->nodes[target].kind != GLSL_NAME ||
+        symbol->storage != GLSL_IN)
+        return;
+    snprintf(name, sizeof name, "%s", symbol->name);
+    snprintf(was, sizeof was, "%s %s", glsl_type_text(tree, symbol->type, type), name);
+    snprintf(text, sizeof text, "inout %.500s", was);
+    symbol->storage = GLSL_INOUT;
+    char *whole = glsl_print(tree, tree->root);
+    symbol->storage = GLSL_IN;
+    take(context, &(Form){.text = text, .name = name, .whole = whole, .was = was});
+    free(whole);
+}
+
+/* Conditions. */
+
+static bool is_local_vector(const GlslSymbol *symbol)
+{
+    return symbol->kind == GLSL_VARIABLE && symbol->type == GLSL_VEC3 && !symbol->global &&
+           !symbol->built_in && symbol->name[0];
+}
+
+void forms_facing(GlslTree *tree, int node, FormTake *take, void *context)
+{
+    const GlslNode *at = &tree->nodes[node];
+    char own[TEXT_SIZE], name[2 * NAME_SIZE], text[2 * TEXT_SIZE];
+    if (at->kind != GLSL_BUILT_IN || GLSL_FUNCTIONS[at->symbol].id != GLSL_POW ||
+        at->type != GLSL_FLOAT)
+        return;
+    glsl_expression_text(tree, node, own, sizeof own);
+    for (int i = 1; i < tree->symbol_count; i++) {
+        for (int k = 1; k < i; k++) {
+            const GlslSymbol *a = &tree->symbols[k], *b = &tree->symbols[i];
+            if (!is_local_vector(a) || !is_local_vector(b))
+                continue;
+            snprintf(name, sizeof name, "dot(%.60s, %.60s)", a->name, b->name);
+            snprintf(text, sizeof text, "(%s > 0.0 ? %s : 0.0)", name, own);
+            take(context, &(Form){.text = text, .name = name});
+        }
+    }
 }

@@ -67,18 +67,21 @@ void forms_exchanges(GlslTree *tree, int node, FormTake *take, void *context)
     const bool commutes = at->kind == GLSL_BINARY && at->op <= GLSL_MULTIPLY;
     const int second = tree->nodes[at->first].next;
     Leaves all = {.count = 0};
+    int operands[MOST]; /* that the leaves are in */
     if (at->kind != GLSL_BINARY && (at->kind < GLSL_CALL || at->kind > GLSL_CONSTRUCT))
         return;
-    take_leaves(tree, at->first, &all);
-    const int first = all.count;
-    for (int i = second; i; i = tree->nodes[i].next)
+    for (int i = at->first, from = 0; i; i = tree->nodes[i].next) {
         take_leaves(tree, i, &all);
-    for (int i = 0; i < first; i++) {
-        for (int k = first; k < all.count; k++) {
+        while (from < all.count)
+            operands[from++] = i;
+    }
+    for (int i = 0; i < all.count; i++) {
+        for (int k = i + 1; k < all.count; k++) {
             const int a = all.nodes[i], b = all.nodes[k];
             char name[2 * NAME_SIZE + 8], text[TEXT_SIZE];
-            if (tree->nodes[a].type != tree->nodes[b].type || !is_sole(&all, i) ||
-                !is_sole(&all, k) || (commutes && a == at->first && b == second))
+            if (operands[i] == operands[k] || tree->nodes[a].type != tree->nodes[b].type ||
+                !is_sole(&all, i) || !is_sole(&all, k) ||
+                (commutes && a == at->first && b == second))
                 continue;
             exchange(tree, a, b);
             glsl_expression_text(tree, node, text, sizeof text);

@@ -10,13 +10,14 @@ typedef struct Form {
     const char *text;         /* instead of the node's; of a statement that is moved: where it is */
     const char *name, *other; /* what the rule's @ and # are */
     const char *whole;        /* all of the text, NULL: what is around the node stays as it is */
+    const char *was;          /* what the text replaces, NULL: the node's */
 } Form;
 typedef void FormTake(void *context, const Form *form);
 
 /* Each of a kind. The tree is as it was afterwards. */
 typedef void FormsEach(GlslTree *tree, int node, FormTake *take, void *context);
 
-/* With a leaf of the first operand and one of the others exchanged. */
+/* With leaves of two operands exchanged. */
 FormsEach forms_exchanges;
 
 /* A sum or product with a pair of parentheses more, or less: `name` is what is in it. */
@@ -40,8 +41,14 @@ FormsEach forms_exponents;
 /* What is assigned to a variable (`name`), added to it, whose first value is 0 then. */
 FormsEach forms_summed;
 
+/* A parameter (`name`) that is assigned, for the caller, too. */
+FormsEach forms_inout;
+
 /* A sum of quotients of one number: that number divided by the sum. */
 FormsEach forms_reciprocals;
+
+/* A power, only where the cosine (`name`) of two local vectors is above 0. */
+FormsEach forms_facing;
 
 /* The node that it is a child of; 0: none. */
 int forms_parent(const GlslTree *tree, int node);

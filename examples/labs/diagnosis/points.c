@@ -28,7 +28,7 @@ static unsigned char *read_map(const LabShadowMap *map)
     return texels;
 }
 
-static const float *value_of(const PointSetting *setting, const char *name)
+const float *points_value(const PointSetting *setting, const char *name)
 {
     for (int i = 0; i < setting->value_count; i++)
         if (strcmp(setting->values[i].name, name) == 0)
@@ -54,7 +54,7 @@ static bool is_front(double clip[POINT_CORNERS][4])
 
 static bool faces_eye(const PointSetting *setting, const Point *point)
 {
-    const float *matrix = value_of(setting, "u_MvpMatrix");
+    const float *matrix = points_value(setting, "u_MvpMatrix");
     double clip[POINT_CORNERS][4];
     for (int i = 0; i < POINT_CORNERS; i++) {
         multiply(matrix, point->corners[i].position, clip[i]);
@@ -81,7 +81,7 @@ void points_place(const Points *points, int point, double place[3])
     const Point *at = &points->items[point];
     const MeshVertex center = middle(at);
     double clip[4];
-    multiply(value_of(&points->settings[at->setting], "u_MvpMatrix"), center.position, clip);
+    multiply(points_value(&points->settings[at->setting], "u_MvpMatrix"), center.position, clip);
     for (int k = 0; k < 3; k++)
         place[k] = clip[k] / clip[3];
 }
@@ -108,9 +108,9 @@ static bool is_at_edge_of_shadow(const PointSetting *setting, const Point *point
     const MeshVertex center = middle(point);
     double world[4], clip[4];
     bool lit = false, dark = false;
-    multiply(value_of(setting, "u_ModelMatrix"), center.position, world);
+    multiply(points_value(setting, "u_ModelMatrix"), center.position, world);
     const float place[3] = {(float)world[0], (float)world[1], (float)world[2]};
-    multiply(value_of(setting, "u_LightMatrix"), place, clip);
+    multiply(points_value(setting, "u_LightMatrix"), place, clip);
     for (int i = 0; i < 27; i++) {
         const double reach = TEXELS[i / 9] / LAB_SHADOW_MAP_SIZE;
         const unsigned char *texel =

@@ -72,6 +72,9 @@ void points_run(const Points *points, PointShader *vertex, PointShader *fragment
 /* A varying, or gl_Position: what is in `outputs`. */
 bool points_is_output(const GlslVariable *variable);
 
+/* Of a uniform; NULL: it has none. */
+const float *points_value(const PointSetting *setting, const char *name);
+
 /* Where u_MvpMatrix puts the point. */
 void points_place(const Points *points, int point, double place[3]);
 

@@ -343,16 +343,20 @@ static void try_any(Search *search)
 static void try_sharing(Search *search)
 {
     search->pairs = 0;
-    search->general = true;
     search->likely = false;
-    for (int i = 0; i < search->sharing_count && !search->all->two_found; i++) {
+    for (int i = 0, count = search->sharing_count;
+         count > 0 && i <= count && !search->all->two_found; i++) {
         const Step kept = search->steps[0];
+        Step *sharing = &search->sharing[i % count];
         search->first = 0;
-        search->steps[0] = search->sharing[i];
+        search->general = i < count; /* the best also with what tries names and numbers */
+        search->pairs = search->general ? search->pairs : 0;
+        search->steps[0] = *sharing;
         try_pairs(search);
-        search->sharing[i] = search->steps[0];
+        *sharing = search->steps[0];
         search->steps[0] = kept;
     }
+    search->general = true;
     search->likely = true;
     for (int i = WITH_ANY; i < search->step_count && !search->all->two_found; i++) {
         search->first = i;

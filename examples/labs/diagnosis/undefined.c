@@ -81,55 +81,50 @@ static bool find_zero(Derivation *all, char *place, size_t size, bool *product)
     return found;
 }
 
+/* The first note of a kind; false: there is none. */
+static bool explain_note(Derivation *all, const Facts *facts, int kind, const char *name,
+                         const char *sentence, Verdict *verdict)
+{
+    char place[VERDICT_SENTENCE_SIZE];
+    if (facts->nodes[kind] < 0)
+        return false;
+    derivation_place(all, facts->stages[kind], facts->nodes[kind], place, sizeof place);
+    blame(verdict, name, sentence, place);
+    return true;
+}
+
 /* Of a black picture whose places are right. */
 static bool explain_black(Derivation *all, const Facts *facts, Verdict *verdict)
 {
     static const int kinds[] = {GLSL_NOTE_ZERO, GLSL_NOTE_POW, GLSL_NOTE_ROOT,
                                 GLSL_NOTE_LOG,  GLSL_NOTE_ARC, GLSL_NOTE_NAN};
-    char place[VERDICT_SENTENCE_SIZE];
-    if (facts->discarded) {
+    bool found = facts->discarded;
+    if (found)
         blame(verdict, "every pixel discarded", "No pixel of an object is drawn.",
               "the conditions of discard");
-        return true;
-    }
-    for (int i = 0; i < (int)(sizeof kinds / sizeof kinds[0]) && facts->no_number; i++) {
-        const int kind = kinds[i];
-        if (facts->nodes[kind] < 0)
-            continue;
-        derivation_place(all, facts->stages[kind], facts->nodes[kind], place, sizeof place);
-        blame(verdict, "no number", glsl_note_text(kind), place);
-        return true;
-    }
-    return false;
+    for (int i = 0; i < (int)(sizeof kinds / sizeof kinds[0]) && facts->no_number && !found; i++)
+        found = explain_note(all, facts, kinds[i], "no number", glsl_note_text(kinds[i]), verdict);
+    return found;
 }
 
 static bool explain_unset(Derivation *all, const Facts *facts, Verdict *verdict)
 {
-    char place[VERDICT_SENTENCE_SIZE];
-    const GlslStage stage = facts->stages[GLSL_NOTE_UNSET];
-    if (facts->nodes[GLSL_NOTE_UNSET] < 0)
-        return false;
-    derivation_place(all, stage, facts->nodes[GLSL_NOTE_UNSET], place, sizeof place);
-    blame(verdict, "variable never set",
-          "A variable is read before it has a value, so anything may be drawn.", place);
-    return true;
+    return explain_note(all, facts, GLSL_NOTE_UNSET, "variable never set",
+                        "A variable is read before it has a value, so anything may be drawn.",
+                        verdict);
 }
 
 /* A loop that counts too far reads what lies behind an array, or its last element again: that
  * depends on the driver. */
 static bool explain_index(Derivation *all, const Facts *facts, Verdict *verdict)
 {
-    char place[VERDICT_SENTENCE_SIZE];
-    if (facts->nodes[GLSL_NOTE_INDEX] < 0)
-        return false;
-    derivation_place(all, facts->stages[GLSL_NOTE_INDEX], facts->nodes[GLSL_NOTE_INDEX], place,
-                     sizeof place);
-    verdict->undefined = true;
-    blame(verdict, "index beyond the array",
-          "An index is beyond the last element, where anything may be: 0 with one driver, the last "
-          "light once more with another.",
-          place);
-    return true;
+    const bool found = explain_note(
+        all, facts, GLSL_NOTE_INDEX, "index beyond the array",
+        "An index is beyond the last element, where anything may be: 0 with one driver, the last "
+        "light once more with another.",
+        verdict);
+    verdict->undefined |= found;
+    return found;
 }
 
 static int find_symbol(const GlslTree *tree, const char *name)
@@ -139,14 +134,6 @@ static int find_symbol(const GlslTree *tree, const char *name)
         if (tree->symbols[i].kind == GLSL_VARIABLE && strcmp(tree->symbols[i].name, name) == 0)
             found = i;
     return found;
-}
-
-static bool is_used(const GlslTree *tree, int symbol)
-{
-    bool used = false;
-    for (int i = 1; i < tree->node_count && !used; i++)
-        used = tree->nodes[i].kind == GLSL_NAME && tree->nodes[i].symbol == symbol;
-    return used;
 }
 
 /* A colour or a varying that no line sets. */
@@ -163,8 +150,8 @@ static bool explain_missing(Derivation *all, Verdict *verdict)
     }
     for (int i = 1; i < vertex->symbol_count; i++) {
         const GlslSymbol *symbol = &vertex->symbols[i];
-        const int other = find_symbol(fragment, symbol->name);
-        if (symbol->storage != GLSL_VARYING || symbol->written || !is_used(fragment, other))
+        if (symbol->storage != GLSL_VARYING || symbol->written ||
+            !derivation_uses(fragment, symbol->name))
             continue;
         snprintf(place, sizeof place, "the vertex shader: set %.60s in main", symbol->name);
         blame(verdict, "varying never set",
@@ -207,7 +194,7 @@ bool diagnose(const LabPictures *pictures, Canvas *canvas, const SubmissionFiles
         all->canvas = canvas;
     if (all && !explain(all, verdict))
         wrong_part_describe(all, verdict);
-    if (all && (all->mended || all->mended_twice) && first)
+    if (all && first)
         first_wrong_find(all, verdict, first);
     derivation_close(all);
     if (!verdict->message[0])

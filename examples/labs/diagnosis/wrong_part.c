@@ -47,6 +47,14 @@ static void run_without(Derivation *all, PointShader pair[2], int without, Numbe
     all->points.without = 0;
 }
 
+/* A highlight that nothing switches off is in the diffuse term, too. */
+static bool is_seen_alone(const Derivation *all, const Term *term)
+{
+    return !all->lab->specular || !(term->without & POINTS_NO_SPECULAR) || term->beside < 0 ||
+           derivation_uses(all->own[0].tree, "u_SpecularColor") ||
+           derivation_uses(all->own[1].tree, "u_SpecularColor");
+}
+
 PartState wrong_part_judge(Derivation *all, const Term *term)
 {
     const int count = all->points.count;
@@ -73,9 +81,24 @@ PartState wrong_part_judge(Derivation *all, const Term *term)
         wrong += apart > TOLERANCE;
     }
     free(own);
-    return wrong > MAY_DIFFER * seen && wrong > 0 ? PART_WRONG
-           : seen > 4                             ? PART_RIGHT
-                                                  : PART_UNSEEN;
+    return wrong > MAY_DIFFER * seen && wrong > 0
+               ? is_seen_alone(all, term) ? PART_WRONG : PART_UNSEEN
+           : seen > 4 ? PART_RIGHT
+                      : PART_UNSEEN;
+}
+
+/* Whether the term is below 0 somewhere, which shows beside ambient light. */
+static bool takes_light(Derivation *all, const Term *term)
+{
+    const int count = all->points.count;
+    Numbers own = memory_new((size_t)(2 * count), sizeof *own), beside = own + count;
+    bool takes = false;
+    run_without(all, all->own, term->without & ~POINTS_NO_AMBIENT, own);
+    run_without(all, all->own, term->beside & ~POINTS_NO_AMBIENT, beside);
+    for (int i = 0; i < 3 * count && !takes && term->beside >= 0; i++)
+        takes = own[i / 3][i % 3] < beside[i / 3][i % 3] - TOLERANCE;
+    free(own);
+    return takes;
 }
 
 /* "a", "a and b", "a, b and c" of the terms that are so. */
@@ -178,6 +201,23 @@ static int find_repair(Derivation *all, const Values *rights, const Values *own,
     return -1;
 }
 
+/* Keeps the first value that is replaced, and the right one. */
+static void take_repair(Derivation *all, const Values *rights, Values *own, const Repair *repair,
+                        GlslStage stage)
+{
+    int points[SHOWN_POINTS], at = 0, turn = repair->offset;
+    first_wrong_points(all, points);
+    const Values *right = &rights[points[0]];
+    values_trace(&all->points, &all->own[0], &all->own[1], points[0], own);
+    while (at < own->count &&
+           (own->items[at].node != repair->node || own->items[at].stage != stage))
+        at++;
+    for (int k = 0; at < own->count && k < right->count; k++)
+        if (right->items[k].symbol == repair->symbol && right->items[k].stage == repair->stage &&
+            turn-- == 0 && values_differ(own, at, right, k))
+            first_wrong_take(all, own, at, right, k, points[0]);
+}
+
 /* The line where another value makes right what is seen `without` some parts; false: there is none.
  * One run for a point, as if all three corners were there. */
 static bool find_line(Derivation *all, int without, char place[VERDICT_SENTENCE_SIZE])
@@ -198,6 +238,8 @@ static bool find_line(Derivation *all, int without, char place[VERDICT_SENTENCE_
     if (at >= 0)
         derivation_place(all, own->items[at].stage, own->items[at].node, place,
                          VERDICT_SENTENCE_SIZE);
+    if (at >= 0 && without == 0)
+        take_repair(all, rights, own, &repair, own->items[at].stage);
     all->own[0].at_once = own_at_once;
     all->right[0].at_once = right_at_once;
     all->points.without = 0;
@@ -215,7 +257,8 @@ WrongParts wrong_part_say(Derivation *all, Verdict *verdict)
         return parts;
     const int count = wrong_part_list(all->lab, terms);
     for (int i = 0; i < count; i++)
-        states[i] = (int)wrong_part_judge(all, &terms[i]);
+        states[i] =
+            takes_light(all, &terms[i]) ? PART_WRONG : (int)wrong_part_judge(all, &terms[i]);
     for (int i = count; i-- > 0;)
         parts.first = states[i] == PART_WRONG ? terms[i] : parts.first;
     list_names(terms, states, count, PART_RIGHT, right);

@@ -25,10 +25,6 @@ typedef struct LabShadowMap {
     Shader shader;        /* that draws it */
 } LabShadowMap;
 
-/* From world space to clip space of a view from the first light at the objects before the last,
- * which is the floor. Their shadows are within. No GL. */
-Mat4 lab_shadow_map_matrix(const LabScene *lab_scene);
-
 /* Draws it, and binds what was bound. Of a scene whose light casts no shadows it has no texture. It
  * is zeroed before, or open: then it is that of another scene from now on, drawn by the same
  * shader, which a driver compiles in 30 ms. */

@@ -54,9 +54,8 @@ bool lab_folder(const Lab *lab, char folder[PATH_MAX], Message *message)
         return true;
     }
     snprintf(source, sizeof source, "examples/labs/%s", lab->name);
-    if (paths_find_data(source, source + strlen("examples/"), folder))
-        return true;
-    return message_set(message, "%s: the lab's folder %s does not exist", lab->name, folder);
+    return paths_find_data(source, source + strlen("examples/"), folder) ||
+           message_set(message, "%s: the lab's folder %s does not exist", lab->name, folder);
 }
 
 bool lab_has_light(const Lab *lab, const char *part)

@@ -32,7 +32,9 @@ static double casters(const LabScene *lab_scene, Vec3 *center)
     return radius;
 }
 
-Mat4 lab_shadow_map_matrix(const LabScene *lab_scene)
+/* From world space to clip space of a view from the first light at the objects before the last,
+ * which is the floor. Their shadows are within. */
+static Mat4 shadow_map_matrix(const LabScene *lab_scene)
 {
     /* A few texels more than the objects need; from before them to beyond the floor. */
     const double margin = 1.05, near = 0.25, far = 5;
@@ -109,7 +111,7 @@ bool lab_shadow_map_open(LabShadowMap *map, const LabScene *lab_scene, Message *
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_CULL_FACE);
     glEnable(GL_DEPTH_TEST);
-    map->clip_from_world = lab_shadow_map_matrix(lab_scene);
+    map->clip_from_world = shadow_map_matrix(lab_scene);
     map->texture =
         canvas_texture(GL_RGBA, GL_UNSIGNED_BYTE, LAB_SHADOW_MAP_SIZE, LAB_SHADOW_MAP_SIZE);
     const bool done = draw_map(map, lab_scene, message);

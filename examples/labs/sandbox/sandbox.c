@@ -148,7 +148,9 @@ static bool make_folder(SandboxRun *run, uid_t user, Message *message)
     if (!scratch_open(run->folder, message))
         return false;
     if (getuid() == 0 && chown(run->folder, user, user) != 0)
-        return message_set(message, "%s: %s", run->folder, strerror(errno));
+        return message_set(message, "cannot give %s to user %ld: %s%s", run->folder, (long)user,
+                           strerror(errno),
+                           errno == EINVAL ? " (run it outside of this user namespace)" : "");
     return true;
 }
 

@@ -131,6 +131,16 @@ uint64_t source_hash_bytes(uint64_t hash, const void *bytes, size_t size)
     return hash;
 }
 
+bool source_hash_file(const char *path, const char *name, uint64_t *hash, Message *message)
+{
+    size_t size;
+    char *bytes = input_read(AT_FDCWD, path, name, 64 << 20, &size, message);
+    const bool done = bytes != NULL;
+    *hash = done ? source_hash_bytes(SOURCE_HASH_START, bytes, size) : SOURCE_HASH_START;
+    free(bytes);
+    return done;
+}
+
 uint64_t source_hash(const Bundle *bundle)
 {
     uint64_t hash = SOURCE_HASH_START;

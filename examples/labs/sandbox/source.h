@@ -28,6 +28,8 @@ bool source_read_file(Bundle *bundle, const char *path, const char *name, Messag
  * of two submissions made to collide, the first keeps its result. */
 uint64_t source_hash(const Bundle *bundle);
 uint64_t source_hash_bytes(uint64_t hash, const void *bytes, size_t size);
+/* Of a regular file of at most 64 MiB; messages begin with `name`. */
+bool source_hash_file(const char *path, const char *name, uint64_t *hash, Message *message);
 #define SOURCE_HASH_START 14695981039346656037ULL
 
 /* Keeps the files of the submission's folder and removes its path from their names. It is the

@@ -8,7 +8,7 @@
 /* Whether a pixel and its neighbors are background only. */
 static bool is_empty(const Reference *exact, int x, int y)
 {
-    for (int dy = -1; dy <= 1; dy++) {
+    for (int dy = -1; dy <= 1; dy++)
         for (int dx = -1; dx <= 1; dx++) {
             const int u = x + dx, v = y + dy;
             if (u < 0 || v < 0 || u >= exact->width || v >= exact->height)
@@ -17,7 +17,6 @@ static bool is_empty(const Reference *exact, int x, int y)
             if (exact->object[i] >= 0 || exact->coverage[i] < 1)
                 return false;
         }
-    }
     return true;
 }
 
@@ -61,7 +60,7 @@ static size_t middle_of(const Image *image, const Reference *exact, int x, int y
 ErrorSum compare_exact(const Image *image, const Reference *exact, const Reference *mask)
 {
     ErrorSum sum = {.pixels = 0};
-    for (int y = 0; y < exact->height; y++) {
+    for (int y = 0; y < exact->height; y++)
         for (int x = 0; x < exact->width; x++) {
             const size_t i = (size_t)y * (size_t)exact->width + (size_t)x;
             if (is_same_inside(exact, mask, x, y) || (mask && is_deep(exact, x, y)) ||
@@ -70,7 +69,6 @@ ErrorSum compare_exact(const Image *image, const Reference *exact, const Referen
                     &sum, pixel_error(image, middle_of(image, exact, x, y), &exact->color[3 * i]),
                     i);
         }
-    }
     return sum;
 }
 

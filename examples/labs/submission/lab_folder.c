@@ -36,7 +36,16 @@ static bool name_lab(LabFolder *folder, const char *path, Message *message)
     return true;
 }
 
-bool lab_folder_open(LabFolder *folder, const char *path, Message *message)
+static void close_folder(LabFolder *folder)
+{
+    for (int i = 0; i < LAB_MAX_SOLUTIONS; i++)
+        submission_files_close(&folder->solutions[i]);
+    json_decref(folder->json);
+    *folder = (LabFolder){.json = NULL};
+}
+
+/* Do not move what was read. */
+static bool open_folder(LabFolder *folder, const char *path, Message *message)
 {
     enum { BYTES_MAX = 1 << 20 };
     char file[2 * PATH_MAX];
@@ -60,16 +69,8 @@ bool lab_folder_open(LabFolder *folder, const char *path, Message *message)
         for (int k = 0; k < folder->solutions[i].count; k++)
             lab->hash = hash_text(lab->hash, folder->solutions[i].texts[k].text);
     if (!done)
-        lab_folder_close(folder);
+        close_folder(folder);
     return done;
-}
-
-void lab_folder_close(LabFolder *folder)
-{
-    for (int i = 0; i < LAB_MAX_SOLUTIONS; i++)
-        submission_files_close(&folder->solutions[i]);
-    json_decref(folder->json);
-    *folder = (LabFolder){.json = NULL};
 }
 
 const Lab *lab_open(const char *text, Message *message)
@@ -79,6 +80,6 @@ const Lab *lab_open(const char *text, Message *message)
     const Lab *known = strchr(text, '/') ? NULL : lab_find(text, NULL);
     if (known || (stat(text, &status) != 0 && !strchr(text, '/')))
         return known ? known : lab_find(text, message);
-    lab_folder_close(&folder);
-    return lab_folder_open(&folder, text, message) ? &folder.lab : NULL;
+    close_folder(&folder);
+    return open_folder(&folder, text, message) ? &folder.lab : NULL;
 }

@@ -19,12 +19,8 @@ typedef struct LabFolder {
     json_t *json; /* owns the texts */
 } LabFolder;
 
-/* Reads a folder; do not move what was read. False, with one line that names the file, the key and
- * what to do. */
-bool lab_folder_open(LabFolder *folder, const char *path, Message *message);
-void lab_folder_close(LabFolder *folder);
-
-/* For lab_folder_open: from its JSON. */
+/* Reads a folder from its JSON. False, with one line that names the file, the key and what to do.
+ */
 bool lab_json_read(LabFolder *folder, Message *message);
 
 /* "2026-11-20 23:59", in local time, as seconds since 1970. False: it is none. */

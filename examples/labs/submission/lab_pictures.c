@@ -40,14 +40,13 @@ Scene lab_pictures_truth_scene(const Lab *lab, const LabScene *lab_scene, int tr
 static bool is_far_from_edges(const Reference *exact, int x, int y, int reach)
 {
     const size_t width = (size_t)exact->width, own = (size_t)y * width + (size_t)x;
-    for (int v = y - reach; v <= y + reach; v++) {
+    for (int v = y - reach; v <= y + reach; v++)
         for (int u = x - reach; u <= x + reach; u++) {
             const size_t i = (size_t)v * width + (size_t)u;
             if (u >= 0 && v >= 0 && u < exact->width && v < exact->height &&
                 (exact->object[i] != exact->object[own] || exact->lights[i] != exact->lights[own]))
                 return false;
         }
-    }
     return true;
 }
 

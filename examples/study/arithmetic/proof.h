@@ -76,8 +76,9 @@ void proof_text(const Proof *proof, int draw, const ProofBound *bound, char *tex
 
 bool proof_is_drawn(const Proof *proof, int draw);
 
-/* Clip coordinates, of draws of points and lines, too. */
-void proof_vertex(const Proof *proof, int draw, unsigned vertex, double place[4]);
+/* Clip coordinates, and a point's size; of draws of points and lines, too. */
+enum { PROOF_PLACE = 5 };
+void proof_vertex(const Proof *proof, int draw, unsigned vertex, double place[PROOF_PLACE]);
 
 /* Of all points of a draw. */
 typedef struct ProvedDraw {

@@ -98,8 +98,9 @@ static void run_vertex(ProofDraw *made, const CaptureDraw *draw, unsigned vertex
         for (int k = 0; k < made->stages.links[i].count; k++)
             handed[PROOF_PLACE + made->stages.links[i].at + k] =
                 output_of(run, made->stages.links[i].vertex + k);
-    for (int k = 0; k < PROOF_PLACE && glsl_find(run->code, "gl_Position", &found); k++)
-        handed[k] = output_of(run, found.first + k);
+    for (int k = 0; k < PROOF_PLACE; k++)
+        if (glsl_find(run->code, k < 4 ? "gl_Position" : "gl_PointSize", &found))
+            handed[k] = output_of(run, found.first + (k < 4 ? k : 0));
 }
 
 static size_t stride_of(const ProofDraw *draw)

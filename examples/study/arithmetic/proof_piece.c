@@ -11,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-void proof_vertex(const Proof *proof, int draw, unsigned vertex, double place[4])
+void proof_vertex(const Proof *proof, int draw, unsigned vertex, double place[PROOF_PLACE])
 {
     const Output *handed = proof_output(proof, draw, vertex);
     for (int k = 0; k < PROOF_PLACE; k++)
@@ -175,6 +175,20 @@ static int widest_of(const ProofDraw *draw, const ProofBox *box)
     return widest;
 }
 
+/* In which a result does; `otherwise`: where that is not known. */
+static int widest_of_result(const GlslBound *bound, const ProofBox *box, int otherwise)
+{
+    double widths[GLSL_WAYS] = {0};
+    int widest = 0;
+    for (int k = 0; k < GLSL_WAYS; k++)
+        if (box->half[k] > 0)
+            widths[k < 2 ? 0 : k] += box->half[k] * magnitude(bound->slope[k]);
+    for (int k = 2; k < GLSL_WAYS; k++)
+        if (widths[k] > widths[widest])
+            widest = k;
+    return widths[widest] > 0 ? widest : otherwise;
+}
+
 /* False: nothing is drawn there. */
 static bool set_inputs(const Proof *proof, const ProofTriangle *triangle, const ProofBox *box)
 {
@@ -236,6 +250,7 @@ ProofBound proof_piece(const Proof *proof, const ProofTriangle *triangle, const 
         worst.steps = 255 * error;
         worst.bounded = ran && isfinite(bound.error);
         worst.node = node;
+        worst.widest = widest_of_result(&bound, box, worst.widest);
         worst.share = bound.error > 0 ? 255 * error * bound.share / bound.error : 0;
     }
     return worst;

@@ -35,8 +35,7 @@ typedef struct ProofDraw {
     int fit_count, fit_room;
 } ProofDraw;
 
-/* What a vertex hands over from the cameras that are set, after its clip coordinates. */
-enum { PROOF_PLACE = 4 };
+/* What a vertex hands over from the cameras that are set, after its place (proof_vertex). */
 const Output *proof_output(const Proof *proof, int draw, unsigned vertex);
 
 /* Draws the scene into the capture; with cameras, those of the range after the planned one. */

@@ -16,7 +16,7 @@ enum {
     TEXT = 17,
     TEXT_LINE = 26,
     TEXT_LINES = 4,
-    TEXT_WIDTH = 330, /* to the right of the panels */
+    TEXT_WIDTH = 372, /* to the right of the panels */
 };
 
 /* With more than this the machine is too busy for times. */

@@ -64,7 +64,7 @@ static void compare(Model *model, const Reference *phong)
 
 static bool measure(Survey *survey, Model models[MODELS], Message *message)
 {
-    for (int round = 0; round < ROUNDS; round++) {
+    for (int round = 0; round < ROUNDS; round++)
         for (int i = 0; i < MODELS; i++) {
             SettingPicture *drawing = &models[(i + round) % MODELS].drawing;
             double *milliseconds = &models[(i + round) % MODELS].milliseconds[round];
@@ -74,7 +74,6 @@ static bool measure(Survey *survey, Model models[MODELS], Message *message)
                 return false;
             *milliseconds = 1e3 * wall;
         }
-    }
     return true;
 }
 

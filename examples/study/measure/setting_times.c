@@ -90,7 +90,7 @@ static void add_axis(QualityList *list, Quality quality, QualityAxis axis, int m
 /* All combinations of what makes lighting cheaper, with this interpolation. */
 static void add_cheaper(QualityList *list, int interpolation, const char *const *divisions)
 {
-    for (int i = 0; divisions[i]; i++) {
+    for (int i = 0; divisions[i]; i++)
         for (int k = 0; k < 8; k++) {
             Quality quality = quality_with(quality_usual(), AXIS_INTERPOLATION, interpolation);
             quality_choose(&quality, "divisions", divisions[i], NULL);
@@ -100,7 +100,6 @@ static void add_cheaper(QualityList *list, int interpolation, const char *const 
                                    interpolation == INTERPOLATION_PHONG ? k >> 2 : 0);
             quality_list_add(list, &quality);
         }
-    }
 }
 
 void setting_times_plan(bool quick, QualityList *list)
@@ -178,7 +177,7 @@ static bool run_rounds(SettingTimes *times, Batch *batch, Message *message)
         order[count++] = i;
         max = batch->timed[i].rounds > max ? batch->timed[i].rounds : max;
     }
-    for (int run = 0; run < RESULT_RUNS; run++) {
+    for (int run = 0; run < RESULT_RUNS; run++)
         for (int round = 0; round < max; round++) {
             for (int i = count - 1; i > 0; i--) {
                 const int k = random_below(&random, i + 1), kept = order[i];
@@ -190,7 +189,6 @@ static bool run_rounds(SettingTimes *times, Batch *batch, Message *message)
                     return false;
             }
         }
-    }
     return true;
 }
 

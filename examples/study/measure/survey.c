@@ -262,8 +262,9 @@ static ResultRow scaled(const ResultRow *row, double scale)
     return made;
 }
 
-/* Adds the rows of a scene to the survey's. `parts` has each part's rows. */
-static void merge_scene(Survey *survey, int scene, Results *parts, int count, int *missing_rows)
+/* Adds the rows of a scene to the survey's. `parts` has each part's rows; `missing` counts
+ * those that each lacks. */
+static void merge_scene(Survey *survey, int scene, Results *parts, int count, int *missing)
 {
     const char *name = STUDY_SCENES[scene].name;
     const Quality usual = quality_usual();
@@ -275,7 +276,7 @@ static void merge_scene(Survey *survey, int scene, Results *parts, int count, in
         const ResultRow *own = results_find(part, name, &usual);
         const ResultRow *row = results_find(part, name, &plan.qualities[i]);
         if (!row || !own || !base || !(row->time > 0 && own->time > 0 && base->time > 0)) {
-            ++*missing_rows;
+            missing[base && base->time > 0 ? i % count : 0]++;
             continue;
         }
         const ResultRow made = part == parts ? *row : scaled(row, base->time / own->time);
@@ -288,7 +289,7 @@ bool survey_merge(Survey *survey, const int *scenes, int count, Message *message
 {
     const int parts = count_parts(survey, message);
     Results *read = memory_new((size_t)parts, sizeof *read);
-    int missing_rows = 0;
+    int *missing = memory_new((size_t)parts + 1, sizeof *missing);
     bool done = parts > 0;
     if (survey->plan.fresh)
         results_close(&survey->results);
@@ -300,14 +301,17 @@ bool survey_merge(Survey *survey, const int *scenes, int count, Message *message
         done = results_read(&read[i], path, &survey->like, message);
     }
     for (int i = 0; i < count && done; i++)
-        merge_scene(survey, scenes[i], read, parts, &missing_rows);
-    if (done && missing_rows)
-        done = message_set(message, "%s: %d rows of its %d parts are missing; run them to the end",
-                           survey->folder, missing_rows, parts);
+        merge_scene(survey, scenes[i], read, parts, missing);
+    for (int i = 0; i < parts && done; i++)
+        if (missing[i])
+            done =
+                message_set(message, "%s: %d rows of its part %d/%d are missing; run it to the end",
+                            survey->folder, missing[i], i + 1, parts);
     done =
         done && results_append(survey->path, survey->results.rows, survey->results.count, message);
     for (int i = 0; i < parts; i++)
         results_close(&read[i]);
+    free(missing);
     free(read);
     return done;
 }

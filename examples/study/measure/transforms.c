@@ -14,14 +14,13 @@ static Mat4 rounded(Mat4 a)
 static Mat4 float_product(Mat4 a, Mat4 b)
 {
     Mat4 c;
-    for (int column = 0; column < 4; column++) {
+    for (int column = 0; column < 4; column++)
         for (int row = 0; row < 4; row++) {
             float sum = 0;
             for (int k = 0; k < 4; k++)
                 sum += (float)a.m[4 * k + row] * (float)b.m[4 * column + k];
             c.m[4 * column + row] = (double)sum;
         }
-    }
     return c;
 }
 
@@ -29,7 +28,7 @@ static Mat4 float_product(Mat4 a, Mat4 b)
 static Mat4 compensated_product(Mat4 a, Mat4 b)
 {
     Mat4 c;
-    for (int column = 0; column < 4; column++) {
+    for (int column = 0; column < 4; column++)
         for (int row = 0; row < 4; row++) {
             float sum = 0, error = 0;
             for (int k = 0; k < 4; k++) {
@@ -41,7 +40,6 @@ static Mat4 compensated_product(Mat4 a, Mat4 b)
             }
             c.m[4 * column + row] = (double)(sum + error);
         }
-    }
     return c;
 }
 

@@ -161,7 +161,7 @@ TemplateValues *gnuplot_values(const char *title, const char *foot)
 static int put_decades(FILE *script, double min, double max, const double *factors, int count)
 {
     int written = 0;
-    for (int power = (int)floor(log10(min)); power <= (int)ceil(log10(max)); power++) {
+    for (int power = (int)floor(log10(min)); power <= (int)ceil(log10(max)); power++)
         for (int i = 0; i < count; i++) {
             const double value = factors[i] * pow(10, power);
             if (value < min * 0.9999 || value > max * 1.0001)
@@ -170,7 +170,6 @@ static int put_decades(FILE *script, double min, double max, const double *facto
                 fprintf(script, "%s'%.6g' %.9g", written ? ", " : "", value, value);
             written++;
         }
-    }
     return written;
 }
 

@@ -29,9 +29,8 @@ double row_error(const ResultRow *row, ErrorKind kind)
 
 bool row_faster(const ResultRow *a, const ResultRow *b)
 {
-    if (!isfinite(a->noise) || !isfinite(b->noise))
-        return false;
-    if (!(b->time > a->time * (1 + fmax(a->noise, b->noise))))
+    if (!isfinite(a->noise) || !isfinite(b->noise) ||
+        !(b->time > a->time * (1 + fmax(a->noise, b->noise))))
         return false;
     for (int run = 0; run < RESULT_RUNS; run++)
         if (!(a->run_times[run] < b->run_times[run]))
