@@ -315,6 +315,17 @@ static bool is_copy(const GlslTree *tree, int node)
            storage <= GLSL_VARYING;
 }
 
+/* Whether a variable begins with a constant to be computed later, as a sum does with 0. */
+static bool is_begun(const GlslTree *tree, int node)
+{
+    const GlslNode *at = &tree->nodes[node];
+    bool begun = false;
+    for (int i = 1; i < tree->node_count && at->kind == GLSL_VARIABLE_NODE && !begun; i++)
+        begun = tree->nodes[at->first].constant && tree->nodes[i].kind == GLSL_ASSIGN &&
+                tree->nodes[tree->nodes[i].first].symbol == at->symbol;
+    return begun;
+}
+
 /* What is missing there belongs to the submission's own condition, if it has it. */
 static void look_at_condition(Derivation *all, const Found *found)
 {
@@ -338,7 +349,8 @@ static const Assigned *find_wrong(const Derivation *all, const Values (*values)[
     const Values *own = values[0];
     for (int i = 0; i < own->count; i++) {
         const Assigned *value = &own->items[i];
-        if (!is_copy(all->own[value->stage].tree, value->node) &&
+        const GlslTree *tree = all->own[value->stage].tree;
+        if (!is_copy(tree, value->node) && !is_begun(tree, value->node) &&
             values_is_wrong(own, i, &values[0][2], &values[0][1]) &&
             is_wrong_at(values, count, value, strict))
             return value;

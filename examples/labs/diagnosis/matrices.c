@@ -364,6 +364,55 @@ static bool name_facts(const LabPictures *pictures, const char *code, Verdict *v
     return false;
 }
 
+/* The scale whose inverse the normal matrix has in all scenes, beside the right turn; false: there
+ * is none. Any multiple is the same: that one is told which agrees most with the right scale. */
+static bool inverted_scale(const LabPictures *pictures, double scale[3])
+{
+    static const double RIGHT[3] = {2, 0.7, 1.2};
+    double first[3], now[3];
+    int most = 0;
+    for (int i = 0; i < pictures->count; i++) {
+        const Mat4 right = binding_normal_matrix(right_world(pictures->items[i].lab_scene.seconds));
+        if (!column_factors(&pictures->normal_matrix[i], &right, now) ||
+            !(now[0] * now[1] * now[2] != 0))
+            return false;
+        for (int k = 0; k < 3; k++)
+            now[k] /= now[2];
+        if (i == 0)
+            memcpy(first, now, sizeof first);
+        if (!is_near(now, first))
+            return false;
+    }
+    for (int of = 0; of < 3; of++) {
+        double other[3];
+        int same = 0;
+        for (int k = 0; k < 3; k++) {
+            other[k] = RIGHT[k] * first[of] / first[k];
+            same += fabs(other[k] - RIGHT[k]) <= MATRICES_TOLERANCE;
+        }
+        if (same > most)
+            memcpy(scale, other, sizeof other), most = same;
+    }
+    return most > 0;
+}
+
+static bool name_normal_scale(const LabPictures *pictures, const char *code, Verdict *verdict)
+{
+    char sentence[VERDICT_SENTENCE_SIZE];
+    double scale[3];
+    if (!inverted_scale(pictures, scale))
+        return false;
+    snprintf(sentence, sizeof sentence,
+             "The normal matrix is turned rightly, but is the inverse of a scale by (%.3g, %.3g, "
+             "%.3g).",
+             scale[0], scale[1], scale[2]);
+    blame(verdict, pictures->lab, code, 1 + NORMAL,
+          &(Form){.name = "wrong scale of the normal matrix",
+                  .sentence = sentence,
+                  .look = "the numbers that are inverted: (2, 0.7, 1.2)"});
+    return true;
+}
+
 void matrices_name(const LabPictures *pictures, const char *code, Verdict *verdict)
 {
     bool model, normal;
@@ -374,10 +423,13 @@ void matrices_name(const LabPictures *pictures, const char *code, Verdict *verdi
         blame(verdict, pictures->lab, code, 1 + MODEL, of_model);
     if (of_normal && told)
         blame(verdict, pictures->lab, code, 1 + NORMAL, of_normal);
+    const bool of_scale =
+        told && !normal && !of_normal && name_normal_scale(pictures, code, verdict);
     const VerdictMistake *said = verdict->mistakes;
-    const char *const unknown = normal || of_normal ? "Unknown mistake in the model matrix"
-                                : told              ? "Unknown mistake in the normal matrix"
-                                                    : "Unknown mistake in both matrices";
+    const char *const unknown = normal || of_normal || of_scale
+                                    ? "Unknown mistake in the model matrix"
+                                : told ? "Unknown mistake in the normal matrix"
+                                       : "Unknown mistake in both matrices";
     snprintf(verdict->message, sizeof verdict->message, "%s%s%s%s",
              verdict->mistake_count > 1 ? "Two mistakes: " : "",
              verdict->mistake_count > 0 ? said[0].name : unknown,

@@ -127,6 +127,15 @@ static bool remains(const Derivation *all, const Values *own, int number,
     return found;
 }
 
+/* Whether one of two values is taken, either of which may be right elsewhere. */
+static bool is_choice(const Derivation *all, const Assigned *own)
+{
+    const GlslTree *tree = all->own[own->stage].tree;
+    const GlslNode *at = &tree->nodes[own->node];
+    const int value = at->kind == GLSL_VARIABLE_NODE ? at->first : tree->nodes[at->first].next;
+    return own->scalar == GLSL_BOOL || tree->nodes[value].kind == GLSL_CONDITIONAL;
+}
+
 /* Whether the change is upstream of the first wrong value: that becomes another by it, and what is
  * right before stays as it is. */
 static bool leads_there(Derivation *all, PointShader *const mended[2])
@@ -150,7 +159,7 @@ static bool leads_there(Derivation *all, PointShader *const mended[2])
                 leads = true;
                 break;
             }
-            kept[i].right &= values_have(right, own, i);
+            kept[i].right &= values_have(right, own, i) && !is_choice(all, &own->items[i]);
             kept[i].stays &= stays;
             kept[i].aims &= has_direction(right, own, i);
             kept[i].still_aims &= stays || has_direction(other, own, i);

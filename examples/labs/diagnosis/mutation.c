@@ -32,13 +32,14 @@ enum {
     SUMMED,
     RECIPROCALS,
     FACING,
-    INOUT
+    INOUT,
+    DECLARED
 };
 /* In their order. */
 static FormsEach *const EACH[] = {forms_exchanges, forms_brackets, forms_unbrackets,  forms_spreads,
                                   forms_turns,     forms_begins,   forms_lights,      forms_moves,
                                   forms_exponents, forms_summed,   forms_reciprocals, forms_facing,
-                                  forms_inout};
+                                  forms_inout,     forms_declared};
 
 typedef struct Rule {
     int kind, op; /* `op`: of a built-in function its number, -1: any; of one component: 1 for

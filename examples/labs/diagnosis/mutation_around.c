@@ -308,6 +308,44 @@ void forms_summed(GlslTree *tree, int node, FormTake *take, void *context)
     free(whole);
 }
 
+/* Declarations. */
+
+/* Whether a local variable hides another one of its name and type. */
+static bool hides(const GlslTree *tree, int symbol)
+{
+    const GlslSymbol *own = &tree->symbols[symbol];
+    bool found = false;
+    for (int i = 1; i < symbol && own->storage == GLSL_LOCAL && !found; i++)
+        found = tree->symbols[i].kind == GLSL_VARIABLE && tree->symbols[i].type == own->type &&
+                tree->symbols[i].name && strcmp(tree->symbols[i].name, own->name) == 0;
+    return found;
+}
+
+void forms_declared(GlslTree *tree, int node, FormTake *take, void *context)
+{
+    const int variable = forms_parent(tree, node), declaration = forms_parent(tree, variable);
+    char type[64], value[TEXT_SIZE / 2], text[TEXT_SIZE - 64], was[TEXT_SIZE];
+    GlslNode kept;
+    if (tree->nodes[variable].kind != GLSL_VARIABLE_NODE || tree->nodes[variable].next ||
+        tree->nodes[declaration].first != variable ||
+        tree->nodes[forms_parent(tree, declaration)].kind != GLSL_BLOCK ||
+        !hides(tree, tree->nodes[variable].symbol))
+        return;
+    const GlslSymbol *symbol = &tree->symbols[tree->nodes[variable].symbol];
+    const char *name = symbol->name;
+    glsl_expression_text(tree, node, value, sizeof value);
+    snprintf(text, sizeof text, "%.99s = %s", name, value);
+    snprintf(was, sizeof was, "%s %s", glsl_type_text(tree, symbol->type, type), text);
+    const GlslNode declared = tree->nodes[declaration];
+    tree->nodes[declaration].kind = GLSL_EXPRESSION;
+    mutation_put(tree, declaration, text, &kept);
+    char *whole = glsl_print(tree, tree->root);
+    mutation_take_back(tree, declaration, &kept);
+    tree->nodes[declaration] = declared;
+    take(context, &(Form){.text = text, .name = name, .whole = whole, .was = was});
+    free(whole);
+}
+
 /* Parameters. */
 
 void forms_inout(GlslTree *tree, int node, FormTake *take, void *context)

@@ -41,6 +41,9 @@ FormsEach forms_exponents;
 /* What is assigned to a variable (`name`), added to it, whose first value is 0 then. */
 FormsEach forms_summed;
 
+/* Of a variable (`name`) that hides another, to which its first value is assigned instead. */
+FormsEach forms_declared;
+
 /* A parameter (`name`) that is assigned, for the caller, too. */
 FormsEach forms_inout;
 
