@@ -477,6 +477,17 @@ class Holes(Labs):
              ("vert", "u_LightPosition[i] - position", "position - u_LightPosition[i]")),
             (9, "sign reversed: normal", ("frag", "        normal = -normal;\n", ""), ("frag", "if (!front)", "bool back = !front;\n    if (back)")),
             (11, "0.4 + 0.6 * visibility() for visibility()", ("frag", mistakes.SUM, "u_AmbientLight + (0.4 + 0.6 * visibility()) * u_LightColor * nDotL")),
+            (5, "declared anew, which hides the one outside: light", ("frag", add, "vec3 light = light + u_LightColor[i] * nDotL;")),
+            (7, "place for a direction: u_EyePosition", ("frag", "= normalize(u_EyePosition - v_Position)", "= u_EyePosition")),
+            (5, "gl_Position for the point in world space", ("vert", "vec3 v_Position", "vec4 v_Position"), ("vert", mistakes.POSITION, "gl_Position"),
+             ("frag", "vec3 v_Position", "vec4 v_Position"), ("frag", "- v_Position", "- v_Position.xyz")),
+            (4, "term missing: - position", ("vert", "light = u_AmbientLight;", "light = vec3(0.0);"), ("vert", "vec4(light *", "vec4((light + u_AmbientLight) *"),
+             ("vert", "u_LightPosition[i] - position", "u_LightPosition[i]")),
+            (9, "u_LightPosition for u_EyePosition", ("frag", mistakes.MAIN, "uniform vec3 u_EyePosition;\n" + mistakes.MAIN),
+             ("frag", "gl_FrontFacing == (u_Mirrored > 0.0)", "dot(v_Normal, u_LightPosition - v_Position) >= 0.0"),
+             ("frag", "        normal = -normal;\n        color = u_BackColor;\n", ""), ("frag", "color = v_Color", "color = front ? v_Color : u_BackColor"),
+             ("frag", "= normalize(v_Normal)", "= front ? normalize(v_Normal) : -normalize(v_Normal)")),
+            (3, "wrong scale of the normal matrix", ("c", "mat4_transpose(inverse)", "mat4_product(rotation, mat4_scale((Vec3){1 / 2.0, 1 / 0.7, 1 / 1.1}))")),
             (3, "angle without its fraction", ("c", "DEGREES_PER_SECOND * seconds", "(int)(DEGREES_PER_SECOND * seconds)")),
         )  # fmt: skip
         cases = cases[:: base.step(3)]
