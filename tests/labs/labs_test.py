@@ -487,6 +487,11 @@ class Holes(Labs):
              ("frag", "gl_FrontFacing == (u_Mirrored > 0.0)", "dot(v_Normal, u_LightPosition - v_Position) >= 0.0"),
              ("frag", "        normal = -normal;\n        color = u_BackColor;\n", ""), ("frag", "color = v_Color", "color = front ? v_Color : u_BackColor"),
              ("frag", "= normalize(v_Normal)", "= front ? normalize(v_Normal) : -normalize(v_Normal)")),
+            (5, "u_ModelViewMatrix for u_ModelMatrix", ("vert", mistakes.MAIN, "uniform mat4 u_ModelViewMatrix;\n" + mistakes.MAIN), ("vert", mistakes.POSITION, "vec3(u_ModelViewMatrix * a_Position)")),
+            (2, "mixed, not added: ", ("vert", "light = u_AmbientLight;", "light = vec3(0.0);"), ("vert", "vec4(light *", "vec4(mix(light, vec3(1.0), u_AmbientLight) *")),
+            (6, "a constant for a direction: vec3(0.0, 0.0, 1.0)", ("frag", "normalize(u_EyePosition - v_Position)", "vec3(0.0, 0.0, 1.0)")),
+            (6, "times nDotL, not just where it is above 0: ", ("frag", "if (nDotL > 0.0)", ""), ("frag", "float nDotL = dot(normal, lightDirection);", "float nDotL = max(dot(normal, lightDirection), 0.0);"),
+             ("frag", "u_SpecularColor * pow(rDotV, u_Shininess)", "u_SpecularColor * pow(rDotV, u_Shininess) * nDotL")),
             (3, "wrong scale of the normal matrix", ("c", "mat4_transpose(inverse)", "mat4_product(rotation, mat4_scale((Vec3){1 / 2.0, 1 / 0.7, 1 / 1.1}))")),
             (3, "angle without its fraction", ("c", "DEGREES_PER_SECOND * seconds", "(int)(DEGREES_PER_SECOND * seconds)")),
         )  # fmt: skip

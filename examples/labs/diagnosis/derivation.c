@@ -55,6 +55,14 @@ void values_trace(const Points *points, PointShader *vertex, PointShader *fragme
     vertex->run->trace = fragment->run->trace = false;
 }
 
+bool values_in_eye(PointShader *const pair[2])
+{
+    return derivation_uses(pair[0]->tree, "u_ModelViewMatrix") ||
+           derivation_uses(pair[0]->tree, "u_EyeNormalMatrix") ||
+           derivation_uses(pair[1]->tree, "u_ModelViewMatrix") ||
+           derivation_uses(pair[1]->tree, "u_EyeNormalMatrix");
+}
+
 void values_trace_right(const Derivation *all, PointShader *const pair[2], int point,
                         Values *values)
 {
@@ -283,9 +291,7 @@ Derivation *derivation_open(const LabPictures *pictures, const SubmissionFiles *
     all->exact = memory_new(count, sizeof *all->exact);
     all->order = memory_new(count, sizeof *all->order);
     derivation_run(all, all->own, all->wanted, NULL);
-    for (int i = 0; i < 2; i++)
-        all->in_eye |= derivation_uses(all->own[i].tree, "u_ModelViewMatrix") ||
-                       derivation_uses(all->own[i].tree, "u_EyeNormalMatrix");
+    all->in_eye = values_in_eye((PointShader *[]){&all->own[0], &all->own[1]});
     for (int i = 0; i < all->points.setting_count; i++)
         all->reads_map |= all->points.settings[i].map_read;
     return all;

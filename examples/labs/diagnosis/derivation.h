@@ -60,8 +60,8 @@ typedef struct Derivation {
     bool nearest_light;   /* at the points, where that is not asked for */
     char *nearest_text;   /* of its fragment shader, if it has other numbers */
     double wrong_by;
-    bool noted; /* the submission does what is undefined */
-    bool reads_map, in_eye;
+    bool noted;             /* the submission does what is undefined */
+    bool reads_map, in_eye; /* in_eye: values may be in eye space */
     double numbers[MUTATION_NUMBERS];
     int number_count, own_number_count; /* as they are in the submission */
     double right_numbers[MUTATION_NUMBERS];
@@ -182,8 +182,11 @@ typedef struct Values {
 void values_trace(const Points *points, PointShader *vertex, PointShader *fragment, int point,
                   Values *values);
 
-/* Those of a right program or its mutant: if the submission has other matrices than those to world
- * space, all vectors in eye space, too, as directions and as points. */
+/* Whether a pair has other matrices than those to world space. */
+bool values_in_eye(PointShader *const pair[2]);
+
+/* Those of a right program or its mutant: if `in_eye` all vectors in eye space, too, as directions
+ * and as points. */
 void values_trace_right(const Derivation *all, PointShader *const pair[2], int point,
                         Values *values);
 
@@ -248,7 +251,8 @@ void first_wrong_find(Derivation *all, Verdict *verdict, FirstWrong *first);
 
 /* The terms that are wrong. */
 typedef struct WrongParts {
-    bool told; /* which, if any */
+    bool told;      /* which, if any */
+    bool all_right; /* each by itself, so that they are combined wrongly */
     char names[256];
     Term first;
 } WrongParts;

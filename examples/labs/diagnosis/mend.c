@@ -145,7 +145,9 @@ static bool leads_there(Derivation *all, PointShader *const mended[2])
         bool right, stays, aims, still_aims; /* at all points; aims: only its length may be wrong */
     } kept[MAX_VALUES];
     bool leads = false, spoils = false;
+    const bool in_eye = all->in_eye;
     int before = 0;
+    all->in_eye = values_in_eye(mended); /* else what is in eye space is not right */
     memset(kept, true, sizeof kept);
     for (int k = 0; k < TRACED && 2 * k < all->points.count; k++) {
         const int point = all->order[2 * k];
@@ -166,6 +168,7 @@ static bool leads_there(Derivation *all, PointShader *const mended[2])
             before = i >= before ? i + 1 : before;
         }
     }
+    all->in_eye = in_eye;
     for (int i = 0; i < before; i++)
         spoils |= (kept[i].right && !kept[i].stays) || (kept[i].aims && !kept[i].still_aims);
     free(own);

@@ -250,7 +250,7 @@ static bool find_line(Derivation *all, int without, char place[VERDICT_SENTENCE_
 WrongParts wrong_part_say(Derivation *all, Verdict *verdict)
 {
     Term terms[MAX_TERMS];
-    int states[MAX_TERMS];
+    int states[MAX_TERMS] = {0};
     char right[256];
     WrongParts parts = {.told = false};
     if (!derive_use_right(all, "", LIT_NEAREST) || all->wrong_by <= 4 * DERIVATION_EQUAL)
@@ -265,6 +265,9 @@ WrongParts wrong_part_say(Derivation *all, Verdict *verdict)
     list_names(terms, states, count, PART_WRONG, parts.names);
     if (parts.names[0])
         verdict_add_symptom(verdict, "Wrong, each seen alone: %s.", parts.names);
+    parts.all_right = count > 0;
+    for (int i = 0; i < count; i++)
+        parts.all_right &= states[i] == PART_RIGHT;
     if (right[0])
         verdict_add_symptom(verdict, "Right, each seen alone: %s.", right);
     parts.told = true;
@@ -284,5 +287,8 @@ void wrong_part_describe(Derivation *all, Verdict *verdict)
         verdict_add_symptom(verdict, "With another value there %s would be right: %s.",
                             parts.first.name, place);
     snprintf(verdict->message, sizeof verdict->message, "Unknown mistake%s%s%s%s",
-             wrong[0] ? " in " : "", wrong, place[0] ? ", " : "", place);
+             wrong[0]          ? " in "
+             : parts.all_right ? " in how the terms are combined"
+                               : "",
+             wrong, place[0] ? ", " : "", place);
 }
