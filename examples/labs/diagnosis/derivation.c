@@ -63,20 +63,26 @@ bool values_in_eye(PointShader *const pair[2])
            derivation_uses(pair[1]->tree, "u_EyeNormalMatrix");
 }
 
-void values_trace_right(const Derivation *all, PointShader *const pair[2], int point,
+int values_given(const GlslTree *tree, int node)
+{
+    const GlslNode *at = &tree->nodes[node];
+    return at->kind == GLSL_VARIABLE_NODE ? at->first : tree->nodes[at->first].next;
+}
+
+void values_trace_right(const Points *points, PointShader *const pair[2], int point, bool in_eye,
                         Values *values)
 {
-    const PointSetting *setting = &all->points.settings[all->points.items[point].setting];
+    const PointSetting *setting = &points->settings[points->items[point].setting];
     const float *m = points_value(setting, "u_ViewMatrix");
-    values_trace(&all->points, pair[0], pair[1], point, values);
-    for (int i = 0, count = values->count; i < 2 * count && all->in_eye; i++) {
+    values_trace(points, pair[0], pair[1], point, values);
+    for (int i = 0, count = values->count; i < 2 * count && in_eye; i++) {
         const double *v = values->items[i / 2].numbers;
         if (values->items[i / 2].size < 3 || values->count == MAX_VALUES)
             continue;
-        Assigned *in_eye = &values->items[values->count++];
-        *in_eye = values->items[i / 2];
+        Assigned *turned = &values->items[values->count++];
+        *turned = values->items[i / 2];
         for (int k = 0; k < 4; k++)
-            in_eye->numbers[k] =
+            turned->numbers[k] =
                 m[k] * v[0] + m[4 + k] * v[1] + m[8 + k] * v[2] + (i % 2 ? m[12 + k] : 0);
     }
 }

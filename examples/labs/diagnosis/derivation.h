@@ -61,7 +61,7 @@ typedef struct Derivation {
     char *nearest_text;   /* of its fragment shader, if it has other numbers */
     double wrong_by;
     bool noted;             /* the submission does what is undefined */
-    bool reads_map, in_eye; /* in_eye: values may be in eye space */
+    bool reads_map, in_eye; /* in_eye: its values may be in eye space */
     double numbers[MUTATION_NUMBERS];
     int number_count, own_number_count; /* as they are in the submission */
     double right_numbers[MUTATION_NUMBERS];
@@ -185,10 +185,13 @@ void values_trace(const Points *points, PointShader *vertex, PointShader *fragme
 /* Whether a pair has other matrices than those to world space. */
 bool values_in_eye(PointShader *const pair[2]);
 
-/* Those of a right program or its mutant: if `in_eye` all vectors in eye space, too, as directions
+/* Those of a right program or its mutant; `in_eye`: all vectors in eye space, too, as directions
  * and as points. */
-void values_trace_right(const Derivation *all, PointShader *const pair[2], int point,
+void values_trace_right(const Points *points, PointShader *const pair[2], int point, bool in_eye,
                         Values *values);
+
+/* The expression that a declaration or an assignment gives a variable. */
+int values_given(const GlslTree *tree, int node);
 
 /* How many of `own` are among the others. */
 int values_shared(const Values *own, const Values *other);

@@ -192,7 +192,7 @@ void derive_compare_values(Derivation *all, Found *found)
         for (int k = 0; k < TRACED && 2 * k < all->points.count; k++) {
             const int point = all->order[2 * k];
             values_trace(&all->points, &all->own[0], &all->own[1], point, own);
-            values_trace_right(all, pair.stages, point, other);
+            values_trace_right(&all->points, pair.stages, point, all->in_eye, other);
             found->shared += values_shared(own, other);
         }
         for (int k = 0; k < 2; k++)
@@ -278,8 +278,9 @@ static bool try_mutant(void *context, const Mutation *mutation, const char *text
 static void trace_all(Derivation *all, PointShader *const mutant[2], int point, Values values[3])
 {
     values_trace(&all->points, &all->own[0], &all->own[1], point, &values[0]);
-    values_trace_right(all, (PointShader *[]){&all->right[0], &all->right[1]}, point, &values[1]);
-    values_trace_right(all, mutant, point, &values[2]);
+    PointShader *const right[2] = {&all->right[0], &all->right[1]};
+    values_trace_right(&all->points, right, point, all->in_eye, &values[1]);
+    values_trace_right(&all->points, mutant, point, all->in_eye, &values[2]);
 }
 
 /* Whether what is assigned there is, at all these points, a value of the mutant, and at one after
@@ -308,11 +309,9 @@ static bool is_wrong_at(const Values (*values)[3], int count, const Assigned *fi
 /* Whether a variable just is an attribute, a varying or a uniform: it may be used rightly, too. */
 static bool is_copy(const GlslTree *tree, int node)
 {
-    const GlslNode *at = &tree->nodes[node];
-    const int value = at->kind == GLSL_VARIABLE_NODE ? at->first : tree->nodes[at->first].next;
-    const int storage = tree->symbols[tree->nodes[value].symbol].storage;
-    return tree->nodes[value].kind == GLSL_NAME && storage >= GLSL_ATTRIBUTE &&
-           storage <= GLSL_VARYING;
+    const GlslNode *value = &tree->nodes[values_given(tree, node)];
+    const int storage = tree->symbols[value->symbol].storage;
+    return value->kind == GLSL_NAME && storage >= GLSL_ATTRIBUTE && storage <= GLSL_VARYING;
 }
 
 /* Whether a variable begins with a constant to be computed later, as a sum does with 0. */

@@ -241,8 +241,8 @@ static const Rule RULES[] = {
 
 static void say(const Rule *rule, const Facts *facts, char sentence[VERDICT_SENTENCE_SIZE])
 {
-    const double scale[3] = {2 * facts->factors[0], 0.7 * facts->factors[1],
-                             1.2 * facts->factors[2]};
+    const double *by = facts->factors;
+    const double scale[3] = {LAB_SCALE.x * by[0], LAB_SCALE.y * by[1], LAB_SCALE.z * by[2]};
     const double *numbers[] = {
         [SCALE] = scale, [TRANSLATION] = facts->first.move, [AXIS] = facts->first.axis};
     if (rule->numbers == NO_NUMBERS)
@@ -368,7 +368,7 @@ static bool name_facts(const LabPictures *pictures, const char *code, Verdict *v
  * is none. Any multiple is the same: that one is told which agrees most with the right scale. */
 static bool inverted_scale(const LabPictures *pictures, double scale[3])
 {
-    static const double RIGHT[3] = {2, 0.7, 1.2};
+    const double wanted[3] = {LAB_SCALE.x, LAB_SCALE.y, LAB_SCALE.z};
     double first[3], now[3];
     int most = 0;
     for (int i = 0; i < pictures->count; i++) {
@@ -387,8 +387,8 @@ static bool inverted_scale(const LabPictures *pictures, double scale[3])
         double other[3];
         int same = 0;
         for (int k = 0; k < 3; k++) {
-            other[k] = RIGHT[k] * first[of] / first[k];
-            same += fabs(other[k] - RIGHT[k]) <= MATRICES_TOLERANCE;
+            other[k] = wanted[k] * first[of] / first[k];
+            same += fabs(other[k] - wanted[k]) <= MATRICES_TOLERANCE;
         }
         if (same > most)
             memcpy(scale, other, sizeof other), most = same;

@@ -131,9 +131,8 @@ static bool remains(const Derivation *all, const Values *own, int number,
 static bool is_choice(const Derivation *all, const Assigned *own)
 {
     const GlslTree *tree = all->own[own->stage].tree;
-    const GlslNode *at = &tree->nodes[own->node];
-    const int value = at->kind == GLSL_VARIABLE_NODE ? at->first : tree->nodes[at->first].next;
-    return own->scalar == GLSL_BOOL || tree->nodes[value].kind == GLSL_CONDITIONAL;
+    return own->scalar == GLSL_BOOL ||
+           tree->nodes[values_given(tree, own->node)].kind == GLSL_CONDITIONAL;
 }
 
 /* Whether the change is upstream of the first wrong value: that becomes another by it, and what is
@@ -145,15 +144,15 @@ static bool leads_there(Derivation *all, PointShader *const mended[2])
         bool right, stays, aims, still_aims; /* at all points; aims: only its length may be wrong */
     } kept[MAX_VALUES];
     bool leads = false, spoils = false;
-    const bool in_eye = all->in_eye;
+    const bool in_eye = values_in_eye(mended); /* else what is in eye space is not right */
+    PointShader *const rights[2] = {&all->right[0], &all->right[1]};
     int before = 0;
-    all->in_eye = values_in_eye(mended); /* else what is in eye space is not right */
     memset(kept, true, sizeof kept);
     for (int k = 0; k < TRACED && 2 * k < all->points.count; k++) {
         const int point = all->order[2 * k];
         values_trace(&all->points, &all->own[0], &all->own[1], point, own);
         values_trace(&all->points, mended[0], mended[1], point, other);
-        values_trace_right(all, (PointShader *[]){&all->right[0], &all->right[1]}, point, right);
+        values_trace_right(&all->points, rights, point, in_eye, right);
         for (int i = 0; i < own->count; i++) {
             const bool stays = remains(all, own, i, mended, other);
             if (!stays && own->items[i].node == all->place_node &&
@@ -168,7 +167,6 @@ static bool leads_there(Derivation *all, PointShader *const mended[2])
             before = i >= before ? i + 1 : before;
         }
     }
-    all->in_eye = in_eye;
     for (int i = 0; i < before; i++)
         spoils |= (kept[i].right && !kept[i].stays) || (kept[i].aims && !kept[i].still_aims);
     free(own);

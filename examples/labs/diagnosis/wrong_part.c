@@ -250,7 +250,7 @@ static bool find_line(Derivation *all, int without, char place[VERDICT_SENTENCE_
 WrongParts wrong_part_say(Derivation *all, Verdict *verdict)
 {
     Term terms[MAX_TERMS];
-    int states[MAX_TERMS] = {0};
+    int states[MAX_TERMS];
     char right[256];
     WrongParts parts = {.told = false};
     if (!derive_use_right(all, "", LIT_NEAREST) || all->wrong_by <= 4 * DERIVATION_EQUAL)
@@ -259,15 +259,15 @@ WrongParts wrong_part_say(Derivation *all, Verdict *verdict)
     for (int i = 0; i < count; i++)
         states[i] =
             takes_light(all, &terms[i]) ? PART_WRONG : (int)wrong_part_judge(all, &terms[i]);
-    for (int i = count; i-- > 0;)
+    parts.all_right = count > 0;
+    for (int i = count; i-- > 0;) {
         parts.first = states[i] == PART_WRONG ? terms[i] : parts.first;
+        parts.all_right &= states[i] == PART_RIGHT;
+    }
     list_names(terms, states, count, PART_RIGHT, right);
     list_names(terms, states, count, PART_WRONG, parts.names);
     if (parts.names[0])
         verdict_add_symptom(verdict, "Wrong, each seen alone: %s.", parts.names);
-    parts.all_right = count > 0;
-    for (int i = 0; i < count; i++)
-        parts.all_right &= states[i] == PART_RIGHT;
     if (right[0])
         verdict_add_symptom(verdict, "Right, each seen alone: %s.", right);
     parts.told = true;

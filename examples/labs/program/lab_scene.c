@@ -9,13 +9,13 @@
 const char *const LAB_SCENE_NAMES[LAB_SCENE_KIND_COUNT] = {"A", "B", "C", "D", "E",
                                                            "F", "G", "H", "I"};
 
-const Vec3 LAB_AXIS = {1, 2, 0.5};
+const Vec3 LAB_AXIS = {1, 2, 0.5}, LAB_SCALE = {2, 0.7, 1.2};
 
 void lab_scene_world_parts(double seconds, Mat4 *move, Mat4 *turn, Mat4 *scale)
 {
     *move = mat4_translate((Vec3){0.5, 0.3, -0.8});
     *turn = mat4_rotate(DEGREES_PER_SECOND * seconds, LAB_AXIS);
-    *scale = mat4_scale((Vec3){2, 0.7, 1.2});
+    *scale = mat4_scale(LAB_SCALE);
 }
 
 Mat4 lab_scene_world(double seconds)

@@ -53,10 +53,9 @@ typedef struct LabScene {
     double own[LAB_MAX_UNIFORMS][4];      /* values of the lab's own uniforms */
 } LabScene;
 
-/* Lab 3's model matrix is move * turn * scale; the turn is about LAB_SCENE_AXIS, by
- * DEGREES_PER_SECOND.
+/* Lab 3's model matrix is move * turn * scale; the turn is about LAB_AXIS, by DEGREES_PER_SECOND.
  */
-extern const Vec3 LAB_AXIS;
+extern const Vec3 LAB_AXIS, LAB_SCALE;
 void lab_scene_world_parts(double seconds, Mat4 *move, Mat4 *turn, Mat4 *scale);
 Mat4 lab_scene_world(double seconds);
 
