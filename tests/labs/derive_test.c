@@ -153,7 +153,7 @@ static const struct {
     {6, 1, "reflect(-lightDirection", "reflect(lightDirection", "sign of lightDirection reversed"},
     {5, 1, "normalize(v_Normal)", "v_Normal", "not normalized: v_Normal"},
     {5, 0, "vec3(u_ModelMatrix * a_Position)", "gl_Position.xyz",
-     "gl_Position.xyz for the point in world space"},
+     "gl_Position for the point in world space"},
     {1, 0, "normalize(vec3(u_NormalMatrix * vec4(a_Normal.xyz, 0.0)))",
      "vec3(normalize(u_NormalMatrix * a_Normal))",
      "normalized with its w: u_NormalMatrix * a_Normal"},
