@@ -8,6 +8,7 @@
 #include "probe/cause.h"
 
 #include "base/memory.h"
+#include "base/text.h"
 #include "core/shader_source.h"
 #include "probe/raster.h"
 
@@ -46,14 +47,20 @@ static void leave_out(GlslRun *run, const GlslEvent *event, void *observer)
 static void find_place(const Share *share, char place[PLACE_TEXT + 8])
 {
     const GlslPlace at = share->tree->nodes[share->node].place;
+    static const char COMMENT[] = "// ";
     char name[PLACE_TEXT];
-    int length = 0, end = 0;
+    int line = 0;
     place_name(share->source, at, name);
     snprintf(place, PLACE_TEXT + 8, "%s", name);
-    const char *first = shader_find_line(share->source, at.file, 1, &length);
-    if (strncmp(name, "line ", 5) == 0 && first &&
-        sscanf(first, "// %80[A-Za-z0-9_]:%n", name, &end) && end)
-        snprintf(place, PLACE_TEXT + 8, "%.80s.%s:%d", name, share->stage ? "frag" : "vert",
+    const char *first = shader_find_line(share->source, at.file, 1, &line);
+    if (strncmp(name, "line ", 5) != 0 || !first || strncmp(first, COMMENT, strlen(COMMENT)) != 0)
+        return;
+    first += strlen(COMMENT);
+    int length = 0;
+    while (text_is_word(first[length]))
+        length++;
+    if (length > 0 && length <= 80 && first[length] == ':')
+        snprintf(place, PLACE_TEXT + 8, "%.*s.%s:%d", length, first, share->stage ? "frag" : "vert",
                  at.line % SHADER_LINES_OF_FILE);
 }
 

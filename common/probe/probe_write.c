@@ -151,12 +151,15 @@ static const char *put_value(FILE *file, const Probe *probe, int event, const ch
     char name[CAPTURE_NAME], index[CAPTURE_NAME];
     double value[4];
     const int length = (int)strspn(text, NAME);
-    int used = 0;
     snprintf(name, sizeof name, "%.*s", length, text);
-    if (sscanf(text + length, "[%60[_0-9a-zA-Z]]%n", index, &used) == 1 && used)
-        snprintf(name, sizeof name, "%.*s[%d]", length, text,
+    text += length;
+    const int inside = *text == '[' ? (int)strspn(text + 1, NAME) : 0;
+    if (inside && text[1 + inside] == ']') {
+        snprintf(index, sizeof index, "%.*s", inside, text + 1);
+        snprintf(name, sizeof name, "%.*s[%d]", length, text - length,
                  value_before(probe, event, index, value) == 1 ? (int)value[0] : atoi(index));
-    text += length + used;
+        text += inside + 2;
+    }
     const int count = value_before(probe, event, name, value);
     if (count == 0 || *text == '(' || *text == '[')
         return NULL;

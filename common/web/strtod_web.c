@@ -1,6 +1,7 @@
 /*
  * Decimal numbers, read by the browser, which rounds them correctly: the C library computes with
- * 128 bits for it, in software, which is 2% of a page. The link has strtod's callers call this.
+ * 128 bits for it, in software, which is 2% of a page. The link has strtod's callers call this. One
+ * call of the scanf family brings all of that in again, so what pages have calls none.
  */
 #include <emscripten.h>
 #include <stdbool.h>
