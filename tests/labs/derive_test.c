@@ -183,7 +183,7 @@ static const struct {
      "viewDirection; vec3 halfway = w.v;",
      "halfway for w.h"},
     {9, 1, "normalize(v_Normal)", "u_Mirrored * normalize(v_Normal)",
-     "u_Mirrored times the normal"},
+     "factor too many: u_Mirrored"},
 };
 
 TEST(test_names)

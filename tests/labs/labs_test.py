@@ -492,6 +492,10 @@ class Holes(Labs):
             (6, "a constant for a direction: vec3(0.0, 0.0, 1.0)", ("frag", "normalize(u_EyePosition - v_Position)", "vec3(0.0, 0.0, 1.0)")),
             (6, "times nDotL, not just where it is above 0: ", ("frag", "if (nDotL > 0.0)", ""), ("frag", "float nDotL = dot(normal, lightDirection);", "float nDotL = max(dot(normal, lightDirection), 0.0);"),
              ("frag", "u_SpecularColor * pow(rDotV, u_Shininess)", "u_SpecularColor * pow(rDotV, u_Shininess) * nDotL")),
+            (11, "v_LightPosition.z for v_LightPosition.w", ("frag", "v_LightPosition.w", "v_LightPosition.z")),
+            (11, "vec2(float(i)) * 1024.0 for vec2(float(i)) / 1024.0",
+             ("frag", "return " + mistakes.COMPARE, "float sum = 0.0;\n    for (int i = 0; i < 2; i++) {\n        vec2 offset = vec2(float(i)) * 1024.0;\n        sum += " + mistakes.COMPARE),
+             ("frag", "mapDepth(place.xy)", "mapDepth(place.xy + offset)"), ("frag", "? 1.0 : 0.0;", "? 1.0 : 0.0;\n    }\n    return sum / 2.0;")),
             (3, "wrong scale of the normal matrix", ("c", "mat4_transpose(inverse)", "mat4_product(rotation, mat4_scale((Vec3){1 / 2.0, 1 / 0.7, 1 / 1.1}))")),
             (3, "angle without its fraction", ("c", "DEGREES_PER_SECOND * seconds", "(int)(DEGREES_PER_SECOND * seconds)")),
         )  # fmt: skip

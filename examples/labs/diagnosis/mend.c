@@ -80,10 +80,12 @@ bool mend_is_given(const Derivation *all, const Mutation *mutation)
     return given;
 }
 
-/* Of a shadow anything of two values may become right by chance: a computation is no variable. */
+/* Of a shadow anything of two values may become right by chance: a computation is no variable, and
+ * a mean no condition. */
 static bool loses(const Derivation *all, const Mutation *mutation)
 {
-    return all->lab->shadow && strchr(mutation->was, '(') && !strpbrk(mutation->by, "(.");
+    return all->lab->shadow && ((strchr(mutation->was, '(') && !strpbrk(mutation->by, "(.")) ||
+                                strstr(mutation->by, " > 0.0)"));
 }
 
 /* As mend_holds, or in a function that is called there. */
@@ -197,6 +199,20 @@ static bool undoes(const Mutation *a, const Mutation *b)
     return out && strstr(b->by, out + strlen(MANY)) && !strstr(b->was, out + strlen(MANY));
 }
 
+/* Lab 11: whether a leaves out a variable of whose value b mends a part. */
+static bool hides(const Derivation *all, const Found *a, const Found *b)
+{
+    static const char MANY[] = " too many: ";
+    const GlslTree *tree = all->own[b->stage].tree;
+    const char *out = all->lab->shadow ? strstr(a->mutation.mends, MANY) : NULL;
+    bool found = false;
+    for (int i = 1; i < tree->node_count && out && !found; i++)
+        found = tree->nodes[i].kind == GLSL_VARIABLE_NODE &&
+                strcmp(tree->symbols[tree->nodes[i].symbol].name, out + strlen(MANY)) == 0 &&
+                mend_holds(tree, i, b->mutation.node);
+    return found;
+}
+
 /* Whether a change needs a uniform that the submission does not declare. */
 static bool needs_undeclared(const Derivation *all, const char *by)
 {
@@ -223,6 +239,8 @@ static int compare(const Derivation *all, const Found *a, const Found *b)
            : a->mutation.anew != b->mutation.anew ? (int)a->mutation.anew - (int)b->mutation.anew
            : undoes(&a->mutation, &b->mutation)   ? -1
            : undoes(&b->mutation, &a->mutation)   ? 1
+           : hides(all, b, a)                     ? -1
+           : hides(all, a, b)                     ? 1
            : a->needs_undeclared != b->needs_undeclared
                ? (int)a->needs_undeclared - (int)b->needs_undeclared
            : a->there != b->there ? (int)b->there - (int)a->there
