@@ -49,14 +49,13 @@ static void find_place(const Share *share, char place[PLACE_TEXT + 8])
     const GlslPlace at = share->tree->nodes[share->node].place;
     static const char COMMENT[] = "// ";
     char name[PLACE_TEXT];
-    int line = 0;
+    int line_length = 0, length = 0;
     place_name(share->source, at, name);
     snprintf(place, PLACE_TEXT + 8, "%s", name);
-    const char *first = shader_find_line(share->source, at.file, 1, &line);
+    const char *first = shader_find_line(share->source, at.file, 1, &line_length);
     if (strncmp(name, "line ", 5) != 0 || !first || strncmp(first, COMMENT, strlen(COMMENT)) != 0)
         return;
     first += strlen(COMMENT);
-    int length = 0;
     while (text_is_word(first[length]))
         length++;
     if (length > 0 && length <= 80 && first[length] == ':')

@@ -191,24 +191,30 @@ static bool is_there(Derivation *all, const Found *found, PointShader *const men
            (place > 0 && leads_there(all, mended));
 }
 
+/* What a change leaves out; NULL: nothing. */
+static const char *left_out(const Mutation *mutation)
+{
+    static const char MANY[] = " too many: ";
+    const char *at = strstr(mutation->mends, MANY);
+    return at ? at + strlen(MANY) : NULL;
+}
+
 /* Whether a leaves out what b puts in once more, or divides by: two of a sign are as none. */
 static bool undoes(const Mutation *a, const Mutation *b)
 {
-    static const char MANY[] = " too many: ";
-    const char *out = strstr(a->mends, MANY);
-    return out && strstr(b->by, out + strlen(MANY)) && !strstr(b->was, out + strlen(MANY));
+    const char *out = left_out(a);
+    return out && strstr(b->by, out) && !strstr(b->was, out);
 }
 
 /* Lab 11: whether a leaves out a variable of whose value b mends a part. */
 static bool hides(const Derivation *all, const Found *a, const Found *b)
 {
-    static const char MANY[] = " too many: ";
     const GlslTree *tree = all->own[b->stage].tree;
-    const char *out = all->lab->shadow ? strstr(a->mutation.mends, MANY) : NULL;
+    const char *out = all->lab->shadow ? left_out(&a->mutation) : NULL;
     bool found = false;
     for (int i = 1; i < tree->node_count && out && !found; i++)
         found = tree->nodes[i].kind == GLSL_VARIABLE_NODE &&
-                strcmp(tree->symbols[tree->nodes[i].symbol].name, out + strlen(MANY)) == 0 &&
+                strcmp(tree->symbols[tree->nodes[i].symbol].name, out) == 0 &&
                 mend_holds(tree, i, b->mutation.node);
     return found;
 }
