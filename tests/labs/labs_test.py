@@ -320,6 +320,14 @@ def edited(lab, *edits):
     return texts
 
 
+# Lab 3: Rodrigues' formula with an axis that is longer than 1.
+TURN_BY_HAND = """const double c = cos(seconds * 0.5235987755982988), s = sin(seconds * 0.5235987755982988);
+    const double a[3] = {1, 2, 0.5};
+    Mat4 rotation = mat4_identity();
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            rotation.m[4 * j + i] = (i == j ? c : ((j - i + 3) % 3 == 1 ? -s : s) * a[3 - i - j]) + (1 - c) * a[i] * a[j];"""
+
 # Lab 6: a highlight by a function, and all in eye space.
 SHINE = """float shine(vec3 n, vec3 l, vec3 v) {
     return dot(n, l) > 0.0 ? pow(max(dot(reflect(-l, n), v), 0.0), u_Shininess) : 0.0;
@@ -444,6 +452,9 @@ class Holes(Labs):
             (5, "not normalized: v_Normal", ("frag", "= normalize(v_Normal);", "= dot(v_Normal, v_Normal) > 0.0 ? v_Normal : vec3(1.0);")),
             (5, "added for each light, or twice: u_AmbientLight", ("frag", "vec3 light = u_AmbientLight;", "vec3 light = vec3(0.0);"),
              ("frag", add, "light += u_AmbientLight + u_LightColor[i] * nDotL;")),
+            # Three times as much, one of them negative, is right, too: no light is.
+            (6, "term too many: u_AmbientLight * v_Color.rgb", ("frag", light, light + "\n        vec3 part = u_AmbientLight * v_Color.rgb;"),
+             ("frag", "color += ", "part += "), ("frag", "        }\n    }\n", "        }\n        color += part;\n    }\n")),
             (6, "also where dot(normal, lightDirection) is not above 0", ("frag", light, ""), ("frag", "if (nDotL > 0.0)", ""),
              ("frag", "* nDotL;", "* max(dot(normal, lightDirection), 0.0);")),
             (9, "clamped at another place", ("frag", "        normal = -normal;\n", ""),
@@ -497,6 +508,7 @@ class Holes(Labs):
              ("frag", "return " + mistakes.COMPARE, "float sum = 0.0;\n    for (int i = 0; i < 2; i++) {\n        vec2 offset = vec2(float(i)) * 1024.0;\n        sum += " + mistakes.COMPARE),
              ("frag", "mapDepth(place.xy)", "mapDepth(place.xy + offset)"), ("frag", "? 1.0 : 0.0;", "? 1.0 : 0.0;\n    }\n    return sum / 2.0;")),
             (3, "wrong scale of the normal matrix", ("c", "mat4_transpose(inverse)", "mat4_product(rotation, mat4_scale((Vec3){1 / 2.0, 1 / 0.7, 1 / 1.1}))")),
+            (3, "axis not normalized", ("c", "Mat4 rotation = " + mistakes.ROTATE, TURN_BY_HAND), ("c", '#include "lab_code.h"', '#include <math.h>\n#include "lab_code.h"')),
             (3, "angle without its fraction", ("c", "DEGREES_PER_SECOND * seconds", "(int)(DEGREES_PER_SECOND * seconds)")),
         )  # fmt: skip
         cases = cases[:: base.step(3)]

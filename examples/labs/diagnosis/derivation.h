@@ -144,6 +144,10 @@ bool mend_open(const Derivation *all, const char *text, bool own, PointShader *s
 /* How far the pair is from the right program that it is nearest to; above `most`: far. */
 double mend_apart(Derivation *all, PointShader *const pair[2], double most);
 
+/* Whether light is negative in it where it is not in the submission, so that it may be right by
+ * chance: what is added three times is also right with one of them subtracted. */
+bool mend_takes_light(Derivation *all, PointShader *const mended[2]);
+
 /* Whether the submission with these texts, NULL: its own, is right in the submission's scenes, by
  * the lab's own verdict. */
 bool mend_passes(Derivation *all, const char *const texts[2]);

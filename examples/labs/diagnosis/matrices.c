@@ -255,14 +255,30 @@ static void say(const Rule *rule, const Facts *facts, char sentence[VERDICT_SENT
                  numbers[rule->numbers][0], numbers[rule->numbers][1], numbers[rule->numbers][2]);
 }
 
+/* What the formula of a rotation about a unit axis makes of an axis of this length. */
+static Mat4 stretched_turn(const Mat4 *turn, double length)
+{
+    Mat4 stretched = mat4_identity();
+    const double cosine = (turn->m[0] + turn->m[5] + turn->m[10] - 1) / 2;
+    for (int column = 0; column < 3; column++)
+        for (int row = 0; row < 3; row++) {
+            const double a = turn->m[4 * column + row], b = turn->m[4 * row + column];
+            const double kept = row == column ? cosine : 0;
+            stretched.m[4 * column + row] =
+                kept + ((a + b) / 2 - kept) * length * length + (a - b) / 2 * length;
+        }
+    return stretched;
+}
+
 /* A formula of matrices: matrix_forms.def says what its letters mean. */
 static Mat4 form_matrix(const char *form, double seconds, const Mat4 *world)
 {
-    static const char LETTERS[] = "MTSW";
+    static const char LETTERS[] = "MTSWA";
     const char *const first = form;
-    Mat4 parts[4], product = mat4_identity(), inverse;
+    Mat4 parts[5], product = mat4_identity(), inverse;
     lab_scene_world_parts(seconds, &parts[0], &parts[1], &parts[2]);
     parts[3] = *world;
+    parts[4] = stretched_turn(&parts[1], vec3_length(LAB_AXIS));
     for (; *form; form++) {
         const char *at = strchr(LETTERS, toupper((unsigned char)*form));
         if (at && isupper((unsigned char)*form))

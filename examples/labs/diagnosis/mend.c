@@ -88,6 +88,31 @@ static bool loses(const Derivation *all, const Mutation *mutation)
                                 strstr(mutation->by, " > 0.0)"));
 }
 
+/* Values that are vectors with no component above 0, as no light is. */
+static int count_negative(const Values *values)
+{
+    int count = 0;
+    for (int i = 0; i < values->count; i++) {
+        const double *n = values->items[i].numbers;
+        count += values->items[i].size >= 3 && fmax(n[0], fmax(n[1], n[2])) <= 0 &&
+                 n[0] + n[1] + n[2] < 0;
+    }
+    return count;
+}
+
+bool mend_takes_light(Derivation *all, PointShader *const mended[2])
+{
+    Values *own = memory_new(2, sizeof *own), *other = own + 1;
+    bool takes = true;
+    for (int k = 0; k < TRACED && 2 * k < all->points.count && takes; k++) {
+        values_trace(&all->points, &all->own[0], &all->own[1], all->order[2 * k], own);
+        values_trace(&all->points, mended[0], mended[1], all->order[2 * k], other);
+        takes = count_negative(other) > count_negative(own);
+    }
+    free(own);
+    return takes;
+}
+
 /* As mend_holds, or in a function that is called there. */
 static bool reaches(const GlslTree *tree, int node, int wanted)
 {
@@ -289,7 +314,7 @@ bool mend_try(Derivation *all, const Mutation *mutation, const char *text)
             (mutation->moves && strstr(mutation->by, "loop")) || is_there(all, &found, pair);
     const bool better = found.apart <= all->tolerance &&
                         (!all->mended || compare(all, &found, &all->mending) < 0) &&
-                        mend_passes(all, texts);
+                        !mend_takes_light(all, pair) && mend_passes(all, texts);
     if (better) {
         free(all->mending.text);
         all->mending = found;

@@ -212,6 +212,10 @@ static bool try_first(void *context, const Mutation *mutation, const char *text)
     if (is_left_out(search, mutation) || !open_changed(search, text, &shader))
         return true;
     pair[all->stage] = &shader;
+    if (search->mends && mutation->by[0] == '-' && mend_takes_light(all, pair)) {
+        point_shader_close(&shader);
+        return true;
+    }
     Step step = {.mutation = *mutation,
                  .stage = all->stage,
                  .text = (char *)text,
@@ -298,7 +302,8 @@ static bool try_second(void *context, const Mutation *mutation, const char *text
     if (first->stage != all->stage)
         pair[first->stage] = open_step(search, first);
     pair[all->stage] = &shader;
-    if (search->mends ? mend_apart(all, pair, DERIVATION_EQUAL) <= DERIVATION_EQUAL
+    if (search->mends ? mend_apart(all, pair, DERIVATION_EQUAL) <= DERIVATION_EQUAL &&
+                            !mend_takes_light(all, pair)
                       : derive_is_same(all, pair))
         take_pair(search, mutation, rank, text);
     point_shader_close(&shader);
