@@ -257,9 +257,16 @@ static bool needs_undeclared(const Derivation *all, const char *by)
     return any;
 }
 
+/* Whether what is declared again is the variable outside. */
+static bool unites(const Found *found)
+{
+    return strncmp(found->mutation.mends, "declared anew,", 14) == 0;
+}
+
 /* Below 0: a is the better change: right to the last digit, and not by a formula instead of all;
- * not of a variable computed anew; what leaves out; with what is declared; where the first wrong
- * value is; without an operand twice; of the likelier rule; the earlier one; the smaller one. */
+ * not of a variable computed anew; what leaves out; with what is declared; of one variable that is
+ * two; where the first wrong value is; without an operand twice; of the likelier rule; the earlier
+ * one; the smaller one. */
 static int compare(const Derivation *all, const Found *a, const Found *b)
 {
     const GlslPlace *place = &all->own[a->stage].tree->nodes[a->mutation.node].place;
@@ -274,7 +281,8 @@ static int compare(const Derivation *all, const Found *a, const Found *b)
            : hides(all, a, b)                     ? 1
            : a->needs_undeclared != b->needs_undeclared
                ? (int)a->needs_undeclared - (int)b->needs_undeclared
-           : a->there != b->there ? (int)b->there - (int)a->there
+           : unites(a) != unites(b) ? (int)unites(b) - (int)unites(a)
+           : a->there != b->there   ? (int)b->there - (int)a->there
            : a->mutation.doubled != b->mutation.doubled
                ? (int)a->mutation.doubled - (int)b->mutation.doubled
            : a->mutation.rank != b->mutation.rank ? a->mutation.rank - b->mutation.rank

@@ -199,24 +199,45 @@ typedef struct Move {
     void *context;
 } Move;
 
-static void move(const Move *move, int to, int before, int around, const char *was, const char *by)
+static void put_moved(const Move *move, int to, int before, const char *name, const char *text)
 {
     GlslTree *tree = move->tree;
     const size_t size = (size_t)tree->node_count * sizeof *tree->nodes;
-    const char *what = tree->nodes[around].kind == GLSL_FOR ? "loop" : "if";
     GlslNode *saved = memory_new(1, size);
-    char name[64], text[64];
     memcpy(saved, tree->nodes, size);
     unlink_node(tree, move->from, move->node);
     link_node(tree, to, move->node, before);
     char *whole = glsl_print(tree, tree->root);
     memcpy(tree->nodes, saved, size);
-    snprintf(name, sizeof name, "%s the %s, not %s it", was, what, by);
-    snprintf(text, sizeof text, "it %s the %s", by, what);
     move->take(move->context,
                &(Form){.text = text, .name = name, .whole = whole, .was = "where it is"});
     free(whole);
     free(saved);
+}
+
+static void move(const Move *move, int to, int before, int around, const char *was, const char *by)
+{
+    const char *what = move->tree->nodes[around].kind == GLSL_FOR ? "loop" : "if";
+    char name[64], text[64];
+    snprintf(name, sizeof name, "%s the %s, not %s it", was, what, by);
+    snprintf(text, sizeof text, "it %s the %s", by, what);
+    put_moved(move, to, before, name, text);
+}
+
+/* Before each of the statements right before it. */
+static void move_up(const Move *move)
+{
+    enum { NEAR_BEFORE = 4 };
+    const GlslTree *tree = move->tree;
+    int befores[NEAR_BEFORE] = {0}, count = 0;
+    char text[32];
+    for (int i = tree->nodes[move->from].first; i != move->node; i = tree->nodes[i].next)
+        befores[count++ % NEAR_BEFORE] = i;
+    for (int back = 1; back <= count && back <= NEAR_BEFORE; back++) {
+        const int before = befores[(count - back) % NEAR_BEFORE];
+        snprintf(text, sizeof text, "it before line %d", tree->nodes[before].place.line);
+        put_moved(move, move->from, before, "too late", text);
+    }
 }
 
 void forms_moves(GlslTree *tree, int node, FormTake *take, void *context)
@@ -228,6 +249,7 @@ void forms_moves(GlslTree *tree, int node, FormTake *take, void *context)
     int before = 0, after = 0; /* the nearest ones */
     if (tree->nodes[block].kind != GLSL_BLOCK)
         return;
+    move_up(&moves);
     bool passed = false;
     for (int i = tree->nodes[block].first; i; i = tree->nodes[i].next) {
         passed |= i == node;

@@ -32,7 +32,7 @@ FormsEach forms_turns, forms_begins;
 /* A local variable, computed anew with another element (`name`, was `other`) of the uniforms. */
 FormsEach forms_lights;
 
-/* A statement before, behind or in a loop or an `if` near it. */
+/* A statement before, behind or in a loop or an `if` near it, or before a statement near it. */
 FormsEach forms_moves;
 
 /* 1, for what a variable begins with that is the exponent of a power. */
