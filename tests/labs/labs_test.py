@@ -320,6 +320,18 @@ def edited(lab, *edits):
     return texts
 
 
+# Lab 11: nine places, also where the map ends.
+NINE = f"""uniform float u_ShadowMapSize;
+float visibility() {{
+    vec3 place = {mistakes.PLACE};
+    float sum = 0.0;
+    for (int y = -1; y <= 1; y++)
+        for (int x = -1; x <= 1; x++)
+            sum += lit(place + vec3(float(x), float(y), 0.0) / u_ShadowMapSize);
+    return sum / 8.0;
+}}
+"""
+
 # Lab 3: Rodrigues' formula with an axis that is longer than 1.
 TURN_BY_HAND = """const double c = cos(seconds * 0.5235987755982988), s = sin(seconds * 0.5235987755982988);
     const double a[3] = {1, 2, 0.5};
@@ -470,6 +482,9 @@ class Holes(Labs):
             (2, "too late: nDotL = ", ("vert", "    for (", "    float nDotL = 0.0;\n    for ("), ("vert", "        float nDotL = max(dot(u_LightDirection[i], normal), 0.0);\n", ""),
              ("vert", "* nDotL;", "* nDotL;\n        nDotL = max(dot(u_LightDirection[i], normal), 0.0);")),
             (5, "declared anew, which hides the one outside: normal", ("frag", "vec3 normal = normalize(v_Normal);", "vec3 normal = v_Normal;\n    if (dot(normal, normal) > 0.0) {\n        vec3 normal = normalize(v_Normal);\n    }")),
+            # The other stage has u_BackColor with four components.
+            (9, "factor too many: u_Mirrored", ("vert", mistakes.MAIN, "uniform float u_Mirrored;\n" + mistakes.MAIN), ("vert", "v_Normal = normalize", "v_Normal = u_Mirrored * normalize")),
+            (11, "8.0 for 9.0", ("frag", f"float visibility() {{\n    vec3 place = {mistakes.PLACE};\n", "float lit(vec3 place) {\n"), ("frag", mistakes.MAIN, NINE + mistakes.MAIN)),
             (7, "blended, not added: ", ("frag", "color += u_LightColor[i] * v_Color.rgb * max(nDotL, 0.0);", "vec3 diffuse = v_Color.rgb * max(nDotL, 0.0);"),
              ("frag", "u_SpecularColor * highlight", "mix(diffuse, u_SpecularColor, highlight)")),
             (5, "not inout: sum", ("frag", mistakes.MAIN, "void put(vec3 sum, vec3 more) {\n    sum += more;\n}\n" + mistakes.MAIN), ("frag", add, "put(light, u_LightColor[i] * nDotL);")),

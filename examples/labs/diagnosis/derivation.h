@@ -113,8 +113,9 @@ void right_run(Derivation *all, LitAt lit);
 bool right_run_all(Derivation *all);
 
 /* The declarations of the interface's uniforms that a text lacks, but a change of it may use, as it
- * may their names, which the tree gets; a text with them. For free(). */
-char *right_undeclared(const Points *points, GlslTree *tree);
+ * may their names, which the tree gets; a text with them. As in the other stage (NULL: none), which
+ * may have them with four components. For free(). */
+char *right_undeclared(const Points *points, GlslTree *tree, const GlslTree *other);
 char *right_declare(const char *declarations, const char *text);
 
 /* Adds the mistake, or two, of which a change (mutation.h) makes the submission right, or a right

@@ -343,7 +343,8 @@ bool mend_find(Derivation *all)
 {
     for (int stage = GLSL_VERTEX; stage <= GLSL_FRAGMENT; stage++) {
         all->stage = (GlslStage)stage;
-        all->undeclared[stage] = right_undeclared(&all->points, all->own[stage].tree);
+        all->undeclared[stage] =
+            right_undeclared(&all->points, all->own[stage].tree, all->own[1 - stage].tree);
         mutations_each(all->own[stage].tree, NULL, all->right_numbers, all->right_number_count,
                        try_change, all);
     }

@@ -234,9 +234,9 @@ static void move_up(const Move *move)
     for (int i = tree->nodes[move->from].first; i != move->node; i = tree->nodes[i].next)
         befores[count++ % NEAR_BEFORE] = i;
     for (int back = 1; back <= count && back <= NEAR_BEFORE; back++) {
-        const int before = befores[(count - back) % NEAR_BEFORE];
-        snprintf(text, sizeof text, "it before line %d", tree->nodes[before].place.line);
-        put_moved(move, move->from, before, "too late", text);
+        snprintf(text, sizeof text,
+                 back > 1 ? "it %d statements earlier" : "it one statement earlier", back);
+        put_moved(move, move->from, befores[(count - back) % NEAR_BEFORE], "too late", text);
     }
 }
 

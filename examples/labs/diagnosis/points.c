@@ -98,9 +98,9 @@ static const unsigned char *texel_of(const PointSetting *setting, double x, doub
     return setting->map + 4 * ((size_t)texel_at(y) * LAB_SHADOW_MAP_SIZE + (size_t)texel_at(x));
 }
 
-/* Whether right programs differ there: some texels away another surface is before the light, or
- * beside the very texel the depth is nearly that of the point, so that biases and filters decide.
- */
+/* Whether right programs differ there: some texels away another surface is before the light or the
+ * map ends, or beside the very texel the depth is nearly that of the point, so that biases and
+ * filters decide. */
 static bool is_at_edge_of_shadow(const PointSetting *setting, const Point *point)
 {
     static const double TEXELS[] = {6, 2, 1.5}, LEAST[] = {0.01, 0.01, 0.001};
@@ -111,16 +111,17 @@ static bool is_at_edge_of_shadow(const PointSetting *setting, const Point *point
     multiply(points_value(setting, "u_ModelMatrix"), center.position, world);
     const float place[3] = {(float)world[0], (float)world[1], (float)world[2]};
     multiply(points_value(setting, "u_LightMatrix"), place, clip);
+    const double x = 0.5 * clip[0] / clip[3] + 0.5, y = 0.5 * clip[1] / clip[3] + 0.5;
+    const double end = fmin(fmin(fabs(x), fabs(1 - x)), fmin(fabs(y), fabs(1 - y)));
     for (int i = 0; i < 27; i++) {
         const double reach = TEXELS[i / 9] / LAB_SHADOW_MAP_SIZE;
         const unsigned char *texel =
-            texel_of(setting, 0.5 * clip[0] / clip[3] + 0.5 + (i % 3 - 1) * reach,
-                     0.5 * clip[1] / clip[3] + 0.5 + (i / 3 % 3 - 1) * reach);
+            texel_of(setting, x + (i % 3 - 1) * reach, y + (i / 3 % 3 - 1) * reach);
         const double behind = 0.5 * clip[2] / clip[3] + 0.5 - texel[0] / 255.0 - texel[1] / 65025.0;
         dark |= behind > LEAST[i / 9];
         lit |= behind <= MOST[i / 9];
     }
-    return lit && dark;
+    return (lit && dark) || end < TEXELS[0] / LAB_SHADOW_MAP_SIZE;
 }
 
 static void add_points(Points *points, const Mesh *mesh, Random *random)

@@ -47,7 +47,7 @@ static void add_symbol(GlslTree *tree, const BindingValue *value, int type)
                                                                  .type = array ? array : type};
 }
 
-char *right_undeclared(const Points *points, GlslTree *tree)
+char *right_undeclared(const Points *points, GlslTree *tree, const GlslTree *other)
 {
     char *text = memory_text("");
     const PointSetting *setting = &points->settings[0];
@@ -58,7 +58,11 @@ char *right_undeclared(const Points *points, GlslTree *tree)
             known |= strcmp(tree->symbols[k].name, value->name) == 0;
         if (known)
             continue;
-        const int type = value->size == 16 ? GLSL_MAT4 : value->size == 1 ? GLSL_FLOAT : GLSL_VEC3;
+        int type = value->size == 16 ? GLSL_MAT4 : value->size == 1 ? GLSL_FLOAT : GLSL_VEC3;
+        for (int k = 1; other && k < other->symbol_count; k++)
+            if (other->symbols[k].type == GLSL_VEC4 &&
+                strcmp(other->symbols[k].name, value->name) == 0)
+                type = GLSL_VEC4;
         char *more = memory_format("%suniform highp %s %s%s;\n", text, tree->types[type].name,
                                    value->name, value->count > 1 ? "[2]" : "");
         if (type != GLSL_MAT4) /* too alike */
@@ -79,7 +83,7 @@ char *right_declare(const char *declarations, const char *text)
  * are normalized in the fragment shader only, if the submission's are. */
 static char *make_text(const Derivation *all, GlslTree *tree)
 {
-    char *rest = right_undeclared(&all->points, tree), *body = glsl_print(tree, tree->root);
+    char *rest = right_undeclared(&all->points, tree, NULL), *body = glsl_print(tree, tree->root);
     char *at = strstr(body, "v_Normal = normalize(");
     if (tree->stage == GLSL_VERTEX && at && !normalizes(all->own[0].tree, all->own[0].tree->root))
         memcpy(at + strlen("v_Normal = "), "         ", strlen("normalize"));
