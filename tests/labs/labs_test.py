@@ -332,14 +332,6 @@ float visibility() {{
 }}
 """
 
-# Lab 3: Rodrigues' formula with an axis that is longer than 1.
-TURN_BY_HAND = """const double c = cos(seconds * 0.5235987755982988), s = sin(seconds * 0.5235987755982988);
-    const double a[3] = {1, 2, 0.5};
-    Mat4 rotation = mat4_identity();
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            rotation.m[4 * j + i] = (i == j ? c : ((j - i + 3) % 3 == 1 ? -s : s) * a[3 - i - j]) + (1 - c) * a[i] * a[j];"""
-
 # Lab 6: a highlight by a function, and all in eye space.
 SHINE = """float shine(vec3 n, vec3 l, vec3 v) {
     return dot(n, l) > 0.0 ? pow(max(dot(reflect(-l, n), v), 0.0), u_Shininess) : 0.0;
@@ -460,6 +452,8 @@ class Holes(Labs):
     def test_one_place_of_several(self):
         """Where a name stands twice in a line the operation around it is said; what is moved is one mistake."""
         light, add = "float nDotL = dot(normal, lightDirection);", "light += u_LightColor[i] * nDotL;"
+        with open(os.path.join(self.folder_of(3, "alternatives"), "rotation_by_hand", "matrices.c")) as file:
+            by_hand = file.read()
         cases = (
             (5, "not normalized: v_Normal", ("frag", "= normalize(v_Normal);", "= dot(v_Normal, v_Normal) > 0.0 ? v_Normal : vec3(1.0);")),
             (5, "added for each light, or twice: u_AmbientLight", ("frag", "vec3 light = u_AmbientLight;", "vec3 light = vec3(0.0);"),
@@ -528,7 +522,7 @@ class Holes(Labs):
              ("frag", "return " + mistakes.COMPARE, "float sum = 0.0;\n    for (int i = 0; i < 2; i++) {\n        vec2 offset = vec2(float(i)) * 1024.0;\n        sum += " + mistakes.COMPARE),
              ("frag", "mapDepth(place.xy)", "mapDepth(place.xy + offset)"), ("frag", "? 1.0 : 0.0;", "? 1.0 : 0.0;\n    }\n    return sum / 2.0;")),
             (3, "wrong scale of the normal matrix", ("c", "mat4_transpose(inverse)", "mat4_product(rotation, mat4_scale((Vec3){1 / 2.0, 1 / 0.7, 1 / 1.1}))")),
-            (3, "axis not normalized", ("c", "Mat4 rotation = " + mistakes.ROTATE, TURN_BY_HAND), ("c", '#include "lab_code.h"', '#include <math.h>\n#include "lab_code.h"')),
+            (3, "axis not normalized", ("c", None, by_hand), ("c", "sqrt(1 * 1 + 2 * 2 + 0.5 * 0.5)", "1")),
             (3, "angle without its fraction", ("c", "DEGREES_PER_SECOND * seconds", "(int)(DEGREES_PER_SECOND * seconds)")),
         )  # fmt: skip
         cases = cases[:: base.step(3)]

@@ -47,22 +47,28 @@ static void add_symbol(GlslTree *tree, const BindingValue *value, int type)
                                                                  .type = array ? array : type};
 }
 
+/* 0: none. */
+static int symbol_named(const GlslTree *tree, const char *name)
+{
+    int found = 0;
+    for (int i = 1; i < tree->symbol_count && !found; i++)
+        found = strcmp(tree->symbols[i].name, name) == 0 ? i : 0;
+    return found;
+}
+
 char *right_undeclared(const Points *points, GlslTree *tree, const GlslTree *other)
 {
     char *text = memory_text("");
     const PointSetting *setting = &points->settings[0];
     for (int i = 0; i < setting->value_count; i++) {
         const BindingValue *value = &setting->values[i];
-        bool known = value->size == 0 || strpbrk(value->name, " .[");
-        for (int k = 1; k < tree->symbol_count; k++)
-            known |= strcmp(tree->symbols[k].name, value->name) == 0;
-        if (known)
+        if (value->size == 0 || strpbrk(value->name, " .[") || symbol_named(tree, value->name))
             continue;
-        int type = value->size == 16 ? GLSL_MAT4 : value->size == 1 ? GLSL_FLOAT : GLSL_VEC3;
-        for (int k = 1; other && k < other->symbol_count; k++)
-            if (other->symbols[k].type == GLSL_VEC4 &&
-                strcmp(other->symbols[k].name, value->name) == 0)
-                type = GLSL_VEC4;
+        const int twin = other ? symbol_named(other, value->name) : 0;
+        const int type = twin && other->symbols[twin].type == GLSL_VEC4 ? GLSL_VEC4
+                         : value->size == 16                            ? GLSL_MAT4
+                         : value->size == 1                             ? GLSL_FLOAT
+                                                                        : GLSL_VEC3;
         char *more = memory_format("%suniform highp %s %s%s;\n", text, tree->types[type].name,
                                    value->name, value->count > 1 ? "[2]" : "");
         if (type != GLSL_MAT4) /* too alike */
