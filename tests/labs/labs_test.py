@@ -479,8 +479,24 @@ class Holes(Labs):
             # The other stage has u_BackColor with four components.
             (9, "factor too many: u_Mirrored", ("vert", mistakes.MAIN, "uniform float u_Mirrored;\n" + mistakes.MAIN), ("vert", "v_Normal = normalize", "v_Normal = u_Mirrored * normalize")),
             (11, "8.0 for 9.0", ("frag", f"float visibility() {{\n    vec3 place = {mistakes.PLACE};\n", "float lit(vec3 place) {\n"), ("frag", mistakes.MAIN, NINE + mistakes.MAIN)),
-            (7, "blended, not added: ", ("frag", "color += u_LightColor[i] * v_Color.rgb * max(nDotL, 0.0);", "vec3 diffuse = v_Color.rgb * max(nDotL, 0.0);"),
-             ("frag", "u_SpecularColor * highlight", "mix(diffuse, u_SpecularColor, highlight)")),
+            (1, "arguments of step swapped: ", ("vert", "max(dot(u_LightDirection, normal), 0.0)", "dot(u_LightDirection, normal);\n    nDotL *= step(nDotL, 0.0)")),
+            # By chance right, too, of a - b: dot(c, a) for dot(a, a).
+            (1, "twice as much, or added twice: dot(a, a)", ("vert", mistakes.MAIN, "float c(vec3 a, vec3 b) {\n    vec3 c = a - b;\n    return dot(a, a) + dot(b, b) - dot(c, c);\n}\n" + mistakes.MAIN),
+             ("vert", "dot(u_LightDirection, normal)", "c(u_LightDirection, normal)")),
+            (5, "not halved: x + abs(x)", ("frag", mistakes.MAIN, "float positive(float x) {\n    return x + abs(x);\n}\n" + mistakes.MAIN), ("frag", "max(dot(lightDirection, normal), 0.0)", "positive(dot(normal, lightDirection))")),
+            (2, "else if for if: b > 0.0", ("vert", "    for (int i = 0; i < 2; i++) {", "    float a = dot(u_LightDirection[0], normal), b = dot(u_LightDirection[1], normal);"),
+             ("vert", "        float nDotL = max(dot(u_LightDirection[i], normal), 0.0);", "    if (a > 0.0)\n        light += a * u_LightColor[0];\n    else if (b > 0.0)\n        light += b * u_LightColor[1];\n"),
+             ("vert", "        light += u_LightColor[i] * nDotL;\n    }\n", "")),
+            # No scene of some seeds once had a face that no light reaches.
+            (2, "a case too many: ", ("vert", "    vec3 light = u", "    bool dark = dot(u_LightDirection[0], normal) <= 0.0 && dot(u_LightDirection[1], normal) <= 0.0;\n    if (dark) {\n        v_Color = vec4(vec3(0.0), a_Color.a);\n        return;\n    }\n    vec3 light = u")),
+            (6, "component by component, not their dot product: ", ("frag", "reflect(-lightDirection, normal)", "2.0 * (normal * lightDirection) * normal - lightDirection")),
+            # reflect(-N, N) is N.
+            (7, "R for normal", ("frag", "vec3 halfway", "vec3 R = reflect(-lightDirection, normal);\n        vec3 halfway"), ("frag", "dot(normal, halfway)", "dot(R, halfway)")),
+            (9, "reversed: u_EyePosition - v_Position", ("frag", mistakes.MAIN, "uniform vec3 u_EyePosition;\n" + mistakes.MAIN), ("frag", "        normal = -normal;\n", ""),
+             ("frag", "    vec3 lightDirection", "    vec3 V = normalize(u_EyePosition - v_Position);\n    normal = faceforward(normal, V, normal);\n    vec3 lightDirection")),
+            (11, "statement too many: sum += ", ("frag", "    return " + mistakes.COMPARE + " ? 1.0 : 0.0;", "    float sum = 0.0;\n" + "".join(f"    sum += place.z - BIAS <= mapDepth(place.xy + vec2(0.0, {i} / 2048.0)) ? 1.0 : 0.0;\n" for i in ("-1.0", "1.0", "1.0")) + "    return sum / 2.0;")),
+            (7, "blended, not added: ", ("frag", "color += u_LightColor[i] * v_Color.rgb * nDotL;", "vec3 diffuse = v_Color.rgb * nDotL;"),
+             ("frag", "u_SpecularColor * pow(nDotH, shininess)", "mix(diffuse, u_SpecularColor, pow(nDotH, shininess))")),
             (5, "not inout: sum", ("frag", mistakes.MAIN, "void put(vec3 sum, vec3 more) {\n    sum += more;\n}\n" + mistakes.MAIN), ("frag", add, "put(light, u_LightColor[i] * nDotL);")),
             (5, "lamps[0] for lamps[i]", ("frag", mistakes.MAIN, "struct Lamp {\n    vec3 color;\n};\n" + mistakes.MAIN), ("frag", "u_LightColor[i] * nDotL", "lamps[0].color * nDotL"),
              ("frag", "    vec3 light =", "    Lamp lamps[2];\n    lamps[0].color = u_LightColor[0];\n    lamps[1].color = u_LightColor[1];\n    vec3 light =")),

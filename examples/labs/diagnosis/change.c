@@ -102,8 +102,10 @@ static void name_mutation(const Mutation *mutation, const char *place, char name
 {
     const char *colon = strstr(mutation->name, ": "), *own = place ? strstr(place, ": ") : NULL;
     const bool number = !mutation->was[strspn(mutation->was, ".0123456789")];
-    /* A number or a condition, which the submission may not have. */
-    const bool both = colon && own && !number && !strpbrk(mutation->was, "<>?");
+    const bool lacks =
+        strstr(mutation->name, "missing: ") || !strncmp(mutation->name, "left out", 8);
+    /* What is missing, a number or a condition, the submission may not have. */
+    const bool both = colon && own && !number && !lacks && !strpbrk(mutation->was, "<>?");
     snprintf(name, MUTATION_TEXT * 2, "%.*s%.190s",
              (int)(both ? colon - mutation->name : MUTATION_TEXT), mutation->name, both ? own : "");
 }

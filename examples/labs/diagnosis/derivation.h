@@ -159,6 +159,9 @@ bool mend_holds(const GlslTree *tree, int node, int wanted);
 /* Whether a change of the submission is one of what the starter gave, which is right. */
 bool mend_is_given(const Derivation *all, const Mutation *mutation);
 
+/* Whether a change makes of a submission what no right program is, but of a lab of one's own. */
+bool mend_is_odd(const Derivation *all, const Mutation *mutation);
+
 /* Finds how many of the submission's values a mutant of the right program has on its way, and how
  * alike the texts are. */
 void derive_compare_values(Derivation *all, Found *found);

@@ -261,7 +261,7 @@ static bool try_mutant(void *context, const Mutation *mutation, const char *text
     Derivation *all = context;
     PointShader shader, *pair[2] = {&all->right[0], &all->right[1]};
     Found found = {.mutation = *mutation, .stage = all->stage};
-    if (!mend_open(all, text, false, &shader))
+    if (!mutation->name[0] || !mend_open(all, text, false, &shader))
         return true;
     pair[all->stage] = &shader;
     found.apart = distance(all, pair);

@@ -80,12 +80,63 @@ bool mend_is_given(const Derivation *all, const Mutation *mutation)
     return given;
 }
 
-/* Of a shadow anything of two values may become right by chance: a computation is no variable, and
- * a mean no condition. */
+/* Whether a statement stands there twice. */
+static bool is_repeated(const GlslTree *tree, int node)
+{
+    char own[512], other[512];
+    bool found = false;
+    glsl_expression_text(tree, tree->nodes[node].first, own, sizeof own);
+    for (int i = 1; i < tree->node_count && !found; i++) {
+        if (i == node || tree->nodes[i].kind != GLSL_EXPRESSION)
+            continue;
+        glsl_expression_text(tree, tree->nodes[i].first, other, sizeof other);
+        found = strcmp(own, other) == 0;
+    }
+    return found;
+}
+
+bool mend_is_odd(const Derivation *all, const Mutation *mutation)
+{
+    const bool maps = strncmp(mutation->mends, "not mapped to", 13) == 0;
+    return (mutation->odd && !all->lab->solution_count) || (maps && !all->lab->shadow);
+}
+
+/* Of a shadow anything of two values may become right by chance: a computation is no variable, a
+ * mean no condition, and one of many samples may be left out. */
 static bool loses(const Derivation *all, const Mutation *mutation)
 {
-    return all->lab->shadow && ((strchr(mutation->was, '(') && !strpbrk(mutation->by, "(.")) ||
-                                strstr(mutation->by, " > 0.0)"));
+    const char *by = mutation->by;
+    const GlslTree *tree = all->own[all->stage].tree;
+    return mend_is_odd(all, mutation) ||
+           (all->lab->shadow && ((strchr(mutation->was, '(') && !strpbrk(by, "(.") &&
+                                  (by[0] || !is_repeated(tree, mutation->node))) ||
+                                 strstr(by, " > 0.0)")));
+}
+
+/* Whether it halves or doubles what has length 1: not its length is wrong. */
+static bool scales_direction(Derivation *all, const Mutation *mutation)
+{
+    PointShader shader, *pair[2] = {&all->own[0], &all->own[1]};
+    GlslTree *tree = all->own[all->stage].tree;
+    char put[MUTATION_TEXT + 16];
+    GlslNode was;
+    const char *by = mutation->by;
+    const bool scales = (strncmp(by, "0.5 * ", 6) == 0 || strncmp(by, "2.0 * ", 6) == 0) &&
+                        strncmp(by + 6 + (by[6] == '('), mutation->was, strlen(mutation->was)) == 0;
+    if (!scales || tree->nodes[mutation->node].type != GLSL_VEC3)
+        return false;
+    snprintf(put, sizeof put, "normalize(%s)", mutation->was);
+    mutation_put(tree, mutation->node, put, &was);
+    char *text = glsl_print(tree, tree->root);
+    mutation_take_back(tree, mutation->node, &was);
+    bool same = mend_open(all, text, true, &shader);
+    if (same) {
+        pair[all->stage] = &shader;
+        same = derive_is_same(all, pair);
+        point_shader_close(&shader);
+    }
+    free(text);
+    return same;
 }
 
 /* Values that are vectors with no component above 0, as no light is. */
@@ -162,15 +213,27 @@ static bool is_choice(const Derivation *all, const Assigned *own)
            tree->nodes[values_given(tree, own->node)].kind == GLSL_CONDITIONAL;
 }
 
-/* Whether the change is upstream of the first wrong value: that becomes another by it, and what is
- * right before stays as it is. */
-static bool leads_there(Derivation *all, PointShader *const mended[2])
+static bool is_direction(const Assigned *value)
+{
+    const double *n = value->numbers;
+    return value->size == 3 && fabs(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] - 1) < 1e-5;
+}
+
+/* What a change does to the submission's values. */
+typedef struct Effect {
+    bool leads;  /* the first wrong one becomes another */
+    bool spoils; /* a right one before does */
+    bool turns;  /* and is a direction: sums may be right by chance */
+} Effect;
+
+static Effect effect_of(Derivation *all, PointShader *const mended[2])
 {
     Values *own = memory_new(3, sizeof *own), *other = own + 1, *right = own + 2;
     struct {
         bool right, stays, aims, still_aims; /* at all points; aims: only its length may be wrong */
+        bool unit;
     } kept[MAX_VALUES];
-    bool leads = false, spoils = false;
+    Effect effect = {false, false, false};
     const bool in_eye = values_in_eye(mended); /* else what is in eye space is not right */
     PointShader *const rights[2] = {&all->right[0], &all->right[1]};
     int before = 0;
@@ -184,24 +247,28 @@ static bool leads_there(Derivation *all, PointShader *const mended[2])
             const bool stays = remains(all, own, i, mended, other);
             if (!stays && own->items[i].node == all->place_node &&
                 own->items[i].stage == all->place_stage) { /* each time it is assigned */
-                leads = true;
+                effect.leads = true;
                 break;
             }
             kept[i].right &= values_have(right, own, i) && !is_choice(all, &own->items[i]);
             kept[i].stays &= stays;
+            kept[i].unit &= is_direction(&own->items[i]);
             kept[i].aims &= has_direction(right, own, i);
             kept[i].still_aims &= stays || has_direction(other, own, i);
             before = i >= before ? i + 1 : before;
         }
     }
-    for (int i = 0; i < before; i++)
-        spoils |= (kept[i].right && !kept[i].stays) || (kept[i].aims && !kept[i].still_aims);
+    for (int i = 0; i < before; i++) {
+        const bool spoiled = kept[i].right && !kept[i].stays;
+        effect.spoils |= spoiled || (kept[i].aims && !kept[i].still_aims);
+        effect.turns |= spoiled && kept[i].unit;
+    }
     free(own);
-    return leads && !spoils;
+    return effect;
 }
 
 /* Whether it is where the first value is that is wrong, if that is known, or upstream, or decides
- * whether that is computed. */
+ * whether that is computed, and changes nothing that is right. */
 static bool is_there(Derivation *all, const Found *found, PointShader *const mended[2])
 {
     const GlslTree *tree = all->own[found->stage].tree;
@@ -212,8 +279,12 @@ static bool is_there(Derivation *all, const Found *found, PointShader *const men
     for (int i = 1; i < tree->node_count && place > 0 && !there; i++)
         there = found->stage == all->place_stage && tree->nodes[i].kind == GLSL_IF &&
                 mend_holds(tree, i, place) && reaches(tree, tree->nodes[i].first, node);
-    return there || tree->nodes[first].kind == GLSL_BUILT_IN || /* it is not used */
-           (place > 0 && leads_there(all, mended));
+    if (tree->nodes[first].kind == GLSL_BUILT_IN) /* it is not used */
+        return true;
+    if (place == 0)
+        return false;
+    const Effect effect = effect_of(all, mended);
+    return there ? !effect.turns : effect.leads && !effect.spoils;
 }
 
 /* What a change leaves out; NULL: nothing. */
@@ -263,14 +334,37 @@ static bool unites(const Found *found)
     return strncmp(found->mutation.mends, "declared anew,", 14) == 0;
 }
 
+/* Counts the statements that end before a node's value is there, as they run: a function where it
+ * is called. */
+static bool count_before(const GlslTree *tree, int node, int wanted, int *count)
+{
+    const GlslNode *at = &tree->nodes[node];
+    bool found = false;
+    for (int i = at->first; i && !found; i = tree->nodes[i].next)
+        found = count_before(tree, i, wanted, count);
+    if (at->kind == GLSL_CALL && !found)
+        found = count_before(tree, tree->symbols[at->symbol].node, wanted, count);
+    *count += !found && (at->kind == GLSL_EXPRESSION || at->kind == GLSL_VARIABLE_NODE ||
+                         at->kind == GLSL_RETURN || at->kind == GLSL_IF);
+    return found || node == wanted;
+}
+
+static int order_of(const Derivation *all, const Found *found)
+{
+    const GlslTree *tree = all->own[found->stage].tree;
+    int count = 0;
+    const bool runs =
+        count_before(tree, tree->symbols[tree->main].node, found->mutation.node, &count);
+    return runs ? count : 0;
+}
+
 /* Below 0: a is the better change: right to the last digit, and not by a formula instead of all;
  * not of a variable computed anew; what leaves out; with what is declared; of one variable that is
- * two; where the first wrong value is; without an operand twice; of the likelier rule; the earlier
+ * two; without an operand twice; where the first wrong value is; of the likelier rule; the earlier
  * one; the smaller one. */
 static int compare(const Derivation *all, const Found *a, const Found *b)
 {
-    const GlslPlace *place = &all->own[a->stage].tree->nodes[a->mutation.node].place;
-    const GlslPlace *other = &all->own[b->stage].tree->nodes[b->mutation.node].place;
+    const int first = order_of(all, a), second = order_of(all, b);
     const bool exact = a->apart <= DERIVATION_EQUAL && !a->mutation.formula;
     const bool other_exact = b->apart <= DERIVATION_EQUAL && !b->mutation.formula;
     return exact != other_exact                   ? (int)other_exact - (int)exact
@@ -282,14 +376,13 @@ static int compare(const Derivation *all, const Found *a, const Found *b)
            : a->needs_undeclared != b->needs_undeclared
                ? (int)a->needs_undeclared - (int)b->needs_undeclared
            : unites(a) != unites(b) ? (int)unites(b) - (int)unites(a)
-           : a->there != b->there   ? (int)b->there - (int)a->there
            : a->mutation.doubled != b->mutation.doubled
                ? (int)a->mutation.doubled - (int)b->mutation.doubled
+           : a->there != b->there                 ? (int)b->there - (int)a->there
            : a->mutation.rank != b->mutation.rank ? a->mutation.rank - b->mutation.rank
            : a->stage != b->stage                 ? (int)a->stage - (int)b->stage
-           : place->line != other->line
-               ? place->line - other->line
-               : (int)strlen(a->mutation.was) - (int)strlen(b->mutation.was);
+           : first != second                      ? first - second
+                             : (int)strlen(a->mutation.was) - (int)strlen(b->mutation.was);
 }
 
 bool mend_open(const Derivation *all, const char *text, bool own, PointShader *shader)
@@ -322,7 +415,8 @@ bool mend_try(Derivation *all, const Mutation *mutation, const char *text)
             (mutation->moves && strstr(mutation->by, "loop")) || is_there(all, &found, pair);
     const bool better = found.apart <= all->tolerance &&
                         (!all->mended || compare(all, &found, &all->mending) < 0) &&
-                        !mend_takes_light(all, pair) && mend_passes(all, texts);
+                        !scales_direction(all, mutation) && !mend_takes_light(all, pair) &&
+                        mend_passes(all, texts);
     if (better) {
         free(all->mending.text);
         all->mending = found;

@@ -16,7 +16,7 @@
 #include <string.h>
 
 /* Of rules for all expressions of a type. */
-enum { ANY_FLOAT = 100, ANY_VEC3, ANY_NAME, ANY_BOTH, ANY_VEC2 };
+enum { ANY_FLOAT = 100, ANY_VEC3, ANY_NAME, ANY_BOTH, ANY_VEC2, LONE_FLOAT };
 
 /* Of rules whose texts code makes: see mutation_forms.h. */
 enum {
@@ -27,7 +27,9 @@ enum {
     TURNS,
     BEGINS,
     OTHER_LIGHT,
+    TWIN,
     MOVE,
+    ELSE_IF,
     EXPONENT,
     SUMMED,
     RECIPROCALS,
@@ -36,16 +38,18 @@ enum {
     DECLARED
 };
 /* In their order. */
-static FormsEach *const EACH[] = {forms_exchanges, forms_brackets, forms_unbrackets,  forms_spreads,
-                                  forms_turns,     forms_begins,   forms_lights,      forms_moves,
-                                  forms_exponents, forms_summed,   forms_reciprocals, forms_facing,
-                                  forms_inout,     forms_declared};
+static FormsEach *const EACH[] = {
+    forms_exchanges,   forms_brackets, forms_unbrackets, forms_spreads,
+    forms_turns,       forms_begins,   forms_lights,     forms_twins,
+    forms_moves,       forms_else_ifs, forms_exponents,  forms_summed,
+    forms_reciprocals, forms_facing,   forms_inout,      forms_declared};
 
 typedef struct Rule {
     int kind, op; /* `op`: of a built-in function its number, -1: any; of one component: 1 for
                      xyzw, 2 for rgba */
-    const char *by, *name, *sentence;
-    const char *mends; /* the mistake's name where this change mends it; "": "$0 for" the new */
+    const char *by, *name, *sentence; /* name: of a right program's mutant; "": there is none */
+    const char *mends; /* the mistake's name where this change mends it; "": "$0 for" the new, "!":
+                          so, too, but no right program of the chapter has it */
 } Rule;
 
 /* What is likelier comes first. */
@@ -250,15 +254,19 @@ static void put_exchange(Mutation *mutation)
     snprintf(mutation->mends, sizeof mutation->mends, "%.96s for %.96s", was, by);
 }
 
-/* Whether a name is in another operand of the operation around the node. */
+/* Whether a name is in another operand of the operation around the node, or around its sign. */
 static bool stands_beside(const Maker *maker, const char *name)
 {
     const GlslNode *nodes = maker->tree->nodes;
     bool found = false;
-    for (int i = nodes[forms_parent(maker->tree, maker->node)].first; i; i = nodes[i].next) {
+    int node = maker->node, above = forms_parent(maker->tree, node);
+    for (; nodes[above].kind == GLSL_UNARY; above = forms_parent(maker->tree, node))
+        node = above;
+    for (int i = nodes[above].first; i; i = nodes[i].next) {
         char text[512];
         glsl_expression_text(maker->tree, i, text, sizeof text);
-        found |= i != maker->node && text_count_word(text, name) > 0;
+        found |=
+            i != node && (text_count_word(text, name) > 0 || strcmp(text, maker->operands[0]) == 0);
     }
     return found;
 }
@@ -284,7 +292,8 @@ static void make(Maker *maker, int rule)
     snprintf(mutation.was, sizeof mutation.was, "%.199s",
              maker->form && maker->form->was ? maker->form->was : maker->operands[0]);
     snprintf(mutation.by, sizeof mutation.by, "%.199s", by);
-    if (RULES[rule].mends[0])
+    mutation.odd = RULES[rule].mends[0] == '!';
+    if (RULES[rule].mends[0] && !mutation.odd)
         fill(maker, RULES[rule].mends, false, mutation.mends, sizeof mutation.mends);
     else
         put_exchange(&mutation);
@@ -365,6 +374,7 @@ static void apply(Maker *maker, int rule)
                numbered = strchr(RULES[rule].by, '#');
     const int type = scalar                           ? GLSL_FLOAT
                      : RULES[rule].kind == GLSL_INDEX ? GLSL_INT
+                     : RULES[rule].kind == LONE_FLOAT ? GLSL_VEC3
                                                       : maker->tree->nodes[maker->node].type;
     const int name_count =
         named ? names_of(maker->tree, type, strcmp(RULES[rule].by, "@") != 0, names) : 1;
@@ -398,6 +408,12 @@ static bool matches(const GlslTree *tree, const GlslNode *node, const Rule *rule
     switch (rule->kind) {
     case ANY_FLOAT:
         return node->type == GLSL_FLOAT && !literal;
+    case LONE_FLOAT: { /* of a sum of vectors */
+        const GlslNode *above = &tree->nodes[forms_parent(tree, (int)(node - tree->nodes))];
+        const bool sum = (above->kind == GLSL_BINARY || above->kind == GLSL_ASSIGN) &&
+                         (above->op == GLSL_ADD || above->op == GLSL_SUBTRACT);
+        return node->type == GLSL_FLOAT && !literal && above->type == GLSL_VEC3 && sum;
+    }
     case ANY_VEC3:
         return node->type == GLSL_VEC3 && !literal;
     case ANY_VEC2:

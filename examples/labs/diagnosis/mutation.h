@@ -27,6 +27,7 @@ typedef struct Mutation {
     bool general;             /* its text has no number and no name that was tried */
     bool doubled;             /* a name that is another operand already */
     bool anew;                /* a variable's value is computed anew where it is used */
+    bool odd;                 /* no right program of the chapter has it */
     bool moves;               /* more than its place changes: `put` is not all of it */
 } Mutation;
 

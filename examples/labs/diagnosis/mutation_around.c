@@ -162,6 +162,20 @@ void forms_lights(GlslTree *tree, int node, FormTake *take, void *context)
     }
 }
 
+void forms_twins(GlslTree *tree, int node, FormTake *take, void *context)
+{
+    const GlslNode *at = &tree->nodes[node];
+    if (at->type != GLSL_VEC3 || (at->kind != GLSL_BINARY && at->kind != GLSL_CALL))
+        return;
+    for (int i = 0; i < 2; i++) {
+        Other other = {.index = i == 0 ? "0" : "1"};
+        char *text = other_text(tree, node, &other, DEPTH);
+        if (text && strcmp(other.was, i == 0 ? "1" : "0") == 0)
+            take(context, &(Form){.text = text, .name = light_of(other.index)});
+        free(text);
+    }
+}
+
 /* Moves. */
 
 /* What a loop or an `if` does, if that is a block; 0: it is neither. */
@@ -197,6 +211,7 @@ typedef struct Move {
     int node, from; /* from: the block it is in */
     FormTake *take;
     void *context;
+    const char *was;
 } Move;
 
 static void put_moved(const Move *move, int to, int before, const char *name, const char *text)
@@ -210,7 +225,7 @@ static void put_moved(const Move *move, int to, int before, const char *name, co
     char *whole = glsl_print(tree, tree->root);
     memcpy(tree->nodes, saved, size);
     move->take(move->context,
-               &(Form){.text = text, .name = name, .whole = whole, .was = "where it is"});
+               &(Form){.text = text, .name = name, .whole = whole, .was = move->was});
     free(whole);
     free(saved);
 }
@@ -245,7 +260,7 @@ void forms_moves(GlslTree *tree, int node, FormTake *take, void *context)
     if (tree->nodes[node].kind != GLSL_EXPRESSION)
         return;
     const int block = forms_parent(tree, node), around = forms_parent(tree, block);
-    const Move moves = {tree, node, block, take, context};
+    const Move moves = {tree, node, block, take, context, "where it is"};
     int before = 0, after = 0; /* the nearest ones */
     if (tree->nodes[block].kind != GLSL_BLOCK)
         return;
@@ -266,6 +281,18 @@ void forms_moves(GlslTree *tree, int node, FormTake *take, void *context)
         return;
     move(&moves, outer, tree->nodes[around].next, around, "in", "after");
     move(&moves, outer, around, around, "in", "before");
+}
+
+void forms_else_ifs(GlslTree *tree, int node, FormTake *take, void *context)
+{
+    const GlslNode *nodes = tree->nodes;
+    const int inner = forms_parent(tree, node), outer = forms_parent(tree, inner);
+    const int then = nodes[nodes[outer].first].next, block = forms_parent(tree, outer);
+    if (nodes[inner].kind == GLSL_IF && nodes[inner].first == node &&
+        nodes[outer].kind == GLSL_IF && nodes[then].next == inner &&
+        nodes[block].kind == GLSL_BLOCK)
+        put_moved(&(Move){tree, inner, outer, take, context, "else if"}, block, nodes[outer].next,
+                  "", "if");
 }
 
 /* Exponents. */

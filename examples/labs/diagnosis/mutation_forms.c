@@ -234,13 +234,38 @@ void forms_unbrackets(GlslTree *tree, int node, FormTake *take, void *context)
     }
 }
 
-/* The product without a factor, and the sum in it with the factor at all terms but one. */
-static void put_spread(const GlslTree *tree, const Chain *chain, const Chain *sum, const int at[3],
-                       char text[TEXT_SIZE])
+/* Which factor of a product moves, by its number, or all but the sum: the product's count. */
+typedef struct Spread {
+    const Chain *chain, *sum;
+    int factor, at, term; /* at: where the sum is; term: that has them not */
+} Spread;
+
+static bool is_moved(const Spread *spread, int i)
 {
+    return i != spread->at && spread->chain->ops[i] != GLSL_DIVIDE &&
+           (spread->factor == i || spread->factor == spread->chain->count);
+}
+
+static void put_moved_factors(const GlslTree *tree, const Spread *spread, char text[TEXT_SIZE])
+{
+    bool any = false;
+    for (int i = 0; i < spread->chain->count; i++) {
+        if (!is_moved(spread, i))
+            continue;
+        if (any)
+            add_op(text, GLSL_MULTIPLY);
+        add_item(tree, spread->chain, i, spread->chain->grouped[i], text);
+        any = true;
+    }
+}
+
+/* The product without them, and the sum in it with them at all terms but one. */
+static void put_spread(const GlslTree *tree, const Spread *spread, char text[TEXT_SIZE])
+{
+    const Chain *chain = spread->chain, *sum = spread->sum;
     text[0] = '\0';
     for (int i = 0; i < chain->count; i++)
-        if (i != at[0] && i != at[1] && chain->ops[i] != GLSL_DIVIDE) {
+        if (i != spread->at && !is_moved(spread, i) && chain->ops[i] != GLSL_DIVIDE) {
             add_item(tree, chain, i, chain->grouped[i], text);
             add_op(text, GLSL_MULTIPLY);
         }
@@ -248,8 +273,8 @@ static void put_spread(const GlslTree *tree, const Chain *chain, const Chain *su
     for (int i = 0; i < sum->count; i++) {
         if (i > 0)
             add_op(text, sum->ops[i]);
-        if (i != at[2]) {
-            add_item(tree, chain, at[0], chain->grouped[at[0]], text);
+        if (i != spread->term) {
+            put_moved_factors(tree, spread, text);
             add_op(text, GLSL_MULTIPLY);
         }
         add_item(tree, sum, i, sum->grouped[i], text);
@@ -287,13 +312,17 @@ void forms_spreads(GlslTree *tree, int node, FormTake *take, void *context)
         if (!chain.grouped[s] || chain.ops[s] == GLSL_DIVIDE)
             continue;
         take_terms(tree, chain.nodes[s], 0, &sum);
-        for (int i = 0; i < chain.count; i++) {
-            char text[TEXT_SIZE], name[TEXT_SIZE], term[TEXT_SIZE];
-            if (i == s || chain.ops[i] == GLSL_DIVIDE)
+        for (int i = 0; i <= chain.count; i++) {
+            char text[TEXT_SIZE], name[TEXT_SIZE] = "", term[TEXT_SIZE];
+            if (i < chain.count ? i == s || chain.ops[i] == GLSL_DIVIDE : i < 3)
                 continue;
-            glsl_expression_text(tree, chain.nodes[i], name, sizeof name);
-            for (int t = 0; t < sum.count; t++) {
-                put_spread(tree, &chain, &sum, (int[]){i, s, t}, text);
+            Spread spread = {&chain, &sum, i, s, 0};
+            put_moved_factors(tree, &spread, name);
+            /* All factors but for the last of two terms: without parentheses. */
+            const int count = i == chain.count && s + 1 == i && sum.count == 2 ? 1 : sum.count;
+            for (int t = 0; t < count; t++) {
+                spread.term = t;
+                put_spread(tree, &spread, text);
                 glsl_expression_text(tree, sum.nodes[t], term, sizeof term);
                 take(context, &(Form){.text = text, .name = name, .other = term});
             }

@@ -32,8 +32,14 @@ FormsEach forms_turns, forms_begins;
 /* A local variable, computed anew with another element (`name`, was `other`) of the uniforms. */
 FormsEach forms_lights;
 
+/* What is computed with one light, with the other one (`name`). */
+FormsEach forms_twins;
+
 /* A statement before, behind or in a loop or an `if` near it, or before a statement near it. */
 FormsEach forms_moves;
+
+/* Of the condition of an `else if`: as an `if` of its own. */
+FormsEach forms_else_ifs;
 
 /* 1, for what a variable begins with that is the exponent of a power. */
 FormsEach forms_exponents;

@@ -198,9 +198,11 @@ static bool is_curve_of_shadow(const Derivation *all, const Mutation *mutation)
 static bool is_left_out(const Search *search, const Mutation *mutation)
 {
     const bool added = !mutation->general && strstr(mutation->by, mutation->was);
-    return mutation->moves || (search->general && !mutation->general) ||
-           (search->likely && !mutation->likely) || (!search->mends && added) ||
-           (search->mends && mend_is_given(search->all, mutation)) ||
+    return mutation->moves || (!search->mends && !mutation->name[0]) ||
+           (search->general && !mutation->general) || (search->likely && !mutation->likely) ||
+           (!search->mends && added) ||
+           (search->mends &&
+            (mend_is_given(search->all, mutation) || mend_is_odd(search->all, mutation))) ||
            is_curve_of_shadow(search->all, mutation);
 }
 

@@ -136,7 +136,7 @@ static int find_symbol(const GlslTree *tree, const char *name)
     return found;
 }
 
-/* A colour or a varying that no line sets. */
+/* A colour, a position or a varying that no line sets. */
 static bool explain_missing(Derivation *all, Verdict *verdict)
 {
     const GlslTree *vertex = all->own[0].tree, *fragment = all->own[1].tree;
@@ -146,6 +146,12 @@ static bool explain_missing(Derivation *all, Verdict *verdict)
         blame(verdict, "no gl_FragColor",
               "The fragment shader sets no colour, so anything may be drawn.",
               "the end of the fragment shader's main: gl_FragColor = ...");
+        return true;
+    }
+    if (!vertex->symbols[find_symbol(vertex, "gl_Position")].written) {
+        blame(verdict, "no gl_Position",
+              "The vertex shader sets no position, so nothing may be drawn, or anything.",
+              "the vertex shader's main: gl_Position = u_MvpMatrix * a_Position");
         return true;
     }
     for (int i = 1; i < vertex->symbol_count; i++) {

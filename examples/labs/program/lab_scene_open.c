@@ -123,20 +123,26 @@ static bool is_strong(const LabScene *lab_scene, const Lab *lab)
 static void choose_lights(LabScene *lab_scene, const Lab *lab, Vec3 view, Random *random)
 {
     const Vec3 origin = {0, 0, 0};
+    Vec3 first = origin;
     const double share = lab_scene->kind == LAB_SCENE_CROWD ? 0.85 : 0.8;
     for (int i = 0; i < lab->lights; i++) {
         /* From the side, for light and shade; or from behind. */
         const bool behind =
-            lab_scene->kind == LAB_SCENE_BEHIND && (i == 0 || random_chance(random));
+            lab_scene->kind == LAB_SCENE_BEHIND && (i == 0 || random_chance(random) || lab->flat);
         /* In C the first light is near the eye: there half vectors have nearly length 1. */
         const bool beside =
             lab_scene->kind == LAB_SCENE_ALONG || (lab_scene->kind == LAB_SCENE_COARSE && i == 0);
         const bool beyond = lab_scene->kind == LAB_SCENE_AGAINST;
         const double max_behind = lab->budget ? 170 : 140;
-        const Vec3 towards = behind ? random_near(random, view, lab->budget ? 155 : 105, max_behind)
+        /* Beside the first one: faces that no light reaches show. */
+        const bool same = behind && lab->flat && i > 0;
+        const Vec3 towards = same ? random_near(random, first, 5, 30)
+                             : behind
+                                 ? random_near(random, view, lab->budget ? 155 : 105, max_behind)
                              : beyond ? random_near(random, vec3_scale(view, -1), 8, 22)
                              : beside ? random_near(random, view, 8, 22)
                                       : random_near(random, view, 25, 75);
+        first = i == 0 ? towards : first;
         const double distance = lab_scene->kind == LAB_SCENE_WIDE
                                     ? random_between(random, 1.9, 2.3)
                                     : random_between(random, 2.4, 4.5);
