@@ -11,7 +11,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of an array or a structure each part, but not what those have in turn. */
+/* Whether a part of an array or a structure is what it was when the whole was assigned last. */
+static bool is_kept(const Values *values, const Assigned *part)
+{
+    int i = values->count - 1;
+    while (i >= 0 && (values->items[i].symbol != part->symbol ||
+                      values->items[i].stage != part->stage || values->items[i].part != part->part))
+        i--;
+    return i >= 0 && memcmp(values->items[i].numbers, part->numbers, sizeof part->numbers) == 0;
+}
+
+/* Of an array or a structure each part that changes, but not what those have in turn. */
 static void take_events(const PointShader *shader, GlslStage stage, Values *values)
 {
     const GlslTree *tree = shader->tree;
@@ -26,15 +36,16 @@ static void take_events(const PointShader *shader, GlslStage stage, Values *valu
                                            : tree->fields[of->field + part].type;
             const int size = parted ? tree->types[type].scalars : event->count;
             if (size <= 4) {
-                Assigned *value = &values->items[values->count++];
-                *value = (Assigned){.size = size,
-                                    .scalar = glsl_scalar(type),
-                                    .node = event->node,
-                                    .symbol = event->symbol,
-                                    .part = parted ? part + 1 : 0,
-                                    .stage = stage};
-                memcpy(value->numbers, &shader->run->values[event->value + used],
+                Assigned value = {.size = size,
+                                  .scalar = glsl_scalar(type),
+                                  .node = event->node,
+                                  .symbol = event->symbol,
+                                  .part = parted ? part + 1 : 0,
+                                  .stage = stage};
+                memcpy(value.numbers, &shader->run->values[event->value + used],
                        (size_t)size * sizeof(double));
+                if (!parted || !is_kept(values, &value))
+                    values->items[values->count++] = value;
             }
             used += size;
         }

@@ -286,7 +286,8 @@ static void make(Maker *maker, int rule)
     char by[2048];
     fill(maker, RULES[rule].by, !statement, by, sizeof by);
     if (strcmp(by, maker->operands[0]) == 0 || (!by[0] && RULES[rule].by[0]) ||
-        (!maker->operands[5][0] && strstr(RULES[rule].by, "$5")) || !is_fresh(maker, by))
+        (!maker->operands[5][0] && strstr(RULES[rule].by, "$5")) || !is_fresh(maker, by) ||
+        (maker->tree->stage == GLSL_VERTEX && strstr(RULES[rule].by, "v_Color"))) /* not set yet */
         return;
     fill(maker, RULES[rule].name, false, mutation.name, sizeof mutation.name);
     snprintf(mutation.was, sizeof mutation.was, "%.199s",
