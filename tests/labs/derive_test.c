@@ -142,7 +142,7 @@ static const struct {
     {8, 1, "u_Attenuation.y * distance", "u_Attenuation.y * distance * 0.4 * 3.0", "3.0 for 2.5"},
     {8, 1, "u_Attenuation.y * distance", "u_Attenuation.x * distance",
      "u_Attenuation.x for u_Attenuation.y"},
-    {8, 1, "pow(rDotV, u_Shininess)", "(rDotV * rDotV)", "exponent 2.0 for u_Shininess"},
+    {8, 1, "pow(rDotV, u_Shininess)", "(rDotV * rDotV)", "a product for a power: rDotV * rDotV"},
     {7, 1, "pow(nDotH, shininess)", "4.0 * pow(nDotH, u_Shininess)",
      "on the power, not on its exponent: 4.0"},
     {5, 1, "light += ", "if (nDotL <= 0.0) break; light += ", "break for continue"},
