@@ -20,6 +20,9 @@ EM_JS(int, context_open, (void), {
     if (!handle || GL.contexts[handle].GLctx.isContextLost())
         return 0;
     GL.makeContextCurrent(handle);
+    /* Of an array's element that no shader uses Emscripten knows a place, WebGL none. */
+    var gl = GL.contexts[handle].GLctx, get = gl.getUniform;
+    gl.getUniform = function(program, place) { return place ? get.call(gl, program, place) : 0; };
     return handle;
 });
 
