@@ -97,8 +97,8 @@ static bool is_repeated(const GlslTree *tree, int node)
 
 bool mend_is_odd(const Derivation *all, const Mutation *mutation)
 {
-    const bool maps = strncmp(mutation->mends, "not mapped to", 13) == 0;
-    return (mutation->odd && !all->lab->solution_count) || (maps && !all->lab->shadow);
+    const bool maps = !all->lab->shadow && strncmp(mutation->mends, "not mapped to", 13) == 0;
+    return (mutation->odd || maps) && !all->lab->solution_count;
 }
 
 /* Of a shadow anything of two values may become right by chance: a computation is no variable, a
@@ -335,11 +335,12 @@ static bool unites(const Found *found)
 }
 
 /* Counts the statements that end before a node's value is there, as they run: a function where it
- * is called. */
+ * is called. Functions that call others twice, and so on, are more than can be counted. */
 static bool count_before(const GlslTree *tree, int node, int wanted, int *count)
 {
+    enum { MOST_COUNTED = 10000 };
     const GlslNode *at = &tree->nodes[node];
-    bool found = false;
+    bool found = *count >= MOST_COUNTED;
     for (int i = at->first; i && !found; i = tree->nodes[i].next)
         found = count_before(tree, i, wanted, count);
     if (at->kind == GLSL_CALL && !found)
