@@ -113,7 +113,7 @@ static bool loses(const Derivation *all, const Mutation *mutation)
                                  strstr(by, " > 0.0)")));
 }
 
-/* Whether it halves or doubles what has length 1: not its length is wrong. */
+/* Whether it halves or doubles what has length 1, so that its length is not what is wrong. */
 static bool scales_direction(Derivation *all, const Mutation *mutation)
 {
     PointShader shader, *pair[2] = {&all->own[0], &all->own[1]};
@@ -223,7 +223,7 @@ static bool is_direction(const Assigned *value)
 typedef struct Effect {
     bool leads;  /* the first wrong one becomes another */
     bool spoils; /* a right one before does */
-    bool turns;  /* and is a direction: sums may be right by chance */
+    bool turns;  /* one of those is a direction; a sum may be right by chance */
 } Effect;
 
 static Effect effect_of(Derivation *all, PointShader *const mended[2])
@@ -359,13 +359,19 @@ static int order_of(const Derivation *all, const Found *found)
     return runs ? count : 0;
 }
 
+/* The one that runs first, the smaller one; it is counted where nothing else decides. */
+static int compare_places(const Derivation *all, const Found *a, const Found *b)
+{
+    const int order = order_of(all, a) - order_of(all, b);
+    return order ? order : (int)strlen(a->mutation.was) - (int)strlen(b->mutation.was);
+}
+
 /* Below 0: a is the better change: right to the last digit, and not by a formula instead of all;
  * not of a variable computed anew; what leaves out; with what is declared; of one variable that is
  * two; without an operand twice; where the first wrong value is; of the likelier rule; the earlier
  * one; the smaller one. */
 static int compare(const Derivation *all, const Found *a, const Found *b)
 {
-    const int first = order_of(all, a), second = order_of(all, b);
     const bool exact = a->apart <= DERIVATION_EQUAL && !a->mutation.formula;
     const bool other_exact = b->apart <= DERIVATION_EQUAL && !b->mutation.formula;
     return exact != other_exact                   ? (int)other_exact - (int)exact
@@ -382,8 +388,7 @@ static int compare(const Derivation *all, const Found *a, const Found *b)
            : a->there != b->there                 ? (int)b->there - (int)a->there
            : a->mutation.rank != b->mutation.rank ? a->mutation.rank - b->mutation.rank
            : a->stage != b->stage                 ? (int)a->stage - (int)b->stage
-           : first != second                      ? first - second
-                             : (int)strlen(a->mutation.was) - (int)strlen(b->mutation.was);
+                                                  : compare_places(all, a, b);
 }
 
 bool mend_open(const Derivation *all, const char *text, bool own, PointShader *shader)

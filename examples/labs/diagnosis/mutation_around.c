@@ -164,13 +164,14 @@ void forms_lights(GlslTree *tree, int node, FormTake *take, void *context)
 
 void forms_twins(GlslTree *tree, int node, FormTake *take, void *context)
 {
+    static const char *const INDICES[] = {"0", "1"};
     const GlslNode *at = &tree->nodes[node];
     if (at->type != GLSL_VEC3 || (at->kind != GLSL_BINARY && at->kind != GLSL_CALL))
         return;
     for (int i = 0; i < 2; i++) {
-        Other other = {.index = i == 0 ? "0" : "1"};
+        Other other = {.index = INDICES[i]};
         char *text = other_text(tree, node, &other, DEPTH);
-        if (text && strcmp(other.was, i == 0 ? "1" : "0") == 0)
+        if (text && strcmp(other.was, INDICES[1 - i]) == 0)
             take(context, &(Form){.text = text, .name = light_of(other.index)});
         free(text);
     }
